@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/scene/scene.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aglow {
+
+struct BuiltinScene {
+    std::string name;         ///< as on the command line; "stress:N" stands for its family
+    std::string description;  ///< one line
+};
+
+/// The scenes made by code, in the order of `aglow scene --list`.
+std::vector<BuiltinScene> builtin_scenes();
+
+/// Makes one: cornell-box, furnace, cube-tc58, corridor, living-room, stress:N.
+/// Errors  bad_argument (no such scene; names those there are; or N not in 12..20 000 000).
+/// Repeat  same scene, bit for bit, every time.
+Result<Scene> builtin_scene(std::string_view name);
+
+}  // namespace aglow

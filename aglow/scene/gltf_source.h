@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace aglow {
+
+/// A glTF file as it was read: the JSON text and the bytes of every buffer (after resolving
+/// data: URIs, files and the GLB chunk) and of every image (encoded: PNG, JPEG, WebP, ...).
+struct GltfSource {
+    std::string json;
+    std::vector<std::vector<uint8_t>> buffers;  ///< [buffers.length]
+    std::vector<std::vector<uint8_t>>
+        images;                    ///< [images.length]; empty where in a bufferView or missing
+    std::filesystem::path folder;  ///< where relative URIs start
+};
+
+}  // namespace aglow

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/scene/scene.h"
+
+#include <filesystem>
+
+namespace aglow {
+
+/// Writes a scene that has no GltfSource (made by code or read from OBJ) as GLB: meshes, nodes,
+/// materials, textures (as PNG), cameras, KHR_lights_punctual, KHR_materials_emissive_strength.
+/// The sky is not part of glTF and is not written. Loading the result gives the same light.
+/// Errors  unreadable (cannot write).
+Status write_glb(const Scene& scene, const std::filesystem::path& path);
+
+/// The same in memory: what load_gltf() reads.
+Result<std::vector<uint8_t>> to_glb(const Scene& scene);
+
+}  // namespace aglow
