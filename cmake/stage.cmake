@@ -2,19 +2,40 @@
 # One stage of the library: every source below aglow/<name> becomes target aglow_<name>, every
 # *_test.cpp there one test program, run by ctest under the stage's name.
 
-set(AGLOW_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+set(AGLOW_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+if(AGLOW_WERROR)
+    list(APPEND AGLOW_WARNINGS -Werror)
+endif()
 
 function(aglow_compile_options target)
-    target_compile_options(${target} PRIVATE ${AGLOW_WARNINGS})
+    # Products and sums are rounded one by one, on every compiler and processor: results are
+    # compared bit for bit.
+    target_compile_options(${target} PRIVATE ${AGLOW_WARNINGS} -ffp-contract=off)
     if(AGLOW_SANITIZE)
-        target_compile_options(${target} PRIVATE -fsanitize=${AGLOW_SANITIZE} -fno-omit-frame-pointer)
+        target_compile_options(${target} PRIVATE -fsanitize=${AGLOW_SANITIZE}
+            -fno-sanitize-recover=all -fno-omit-frame-pointer)
         target_link_options(${target} PUBLIC -fsanitize=${AGLOW_SANITIZE})
     endif()
 endfunction()
 
+# A doctest program from `sources` under ctest's `name`.
+function(aglow_doctest name)
+    cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+    if(NOT TARGET aglow_doctest_main)
+        add_library(aglow_doctest_main STATIC ${PROJECT_SOURCE_DIR}/tests/doctest_main.cpp)
+        aglow_compile_options(aglow_doctest_main)
+    endif()
+    add_executable(${name}_test ${TEST_SOURCES})
+    target_link_libraries(${name}_test PRIVATE ${TEST_LINK} aglow_doctest_main rapidcheck)
+    target_compile_definitions(${name}_test PRIVATE AGLOW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    aglow_compile_options(${name}_test)
+    add_test(NAME ${name} COMMAND ${name}_test)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+endfunction()
+
 function(aglow_stage name)
     cmake_parse_arguments(STAGE "" "" "USES;LINK" ${ARGN})
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/aglow/${name}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/aglow/${name}/*.cpp)
     set(tests ${sources})
     list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
     list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
@@ -23,17 +44,14 @@ function(aglow_stage name)
     add_library(aglow::${name} ALIAS aglow_${name})
     set_target_properties(aglow_${name} PROPERTIES EXPORT_NAME ${name})
     target_include_directories(aglow_${name} PUBLIC
-        $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_compile_features(aglow_${name} PUBLIC cxx_std_20)
     list(TRANSFORM STAGE_USES PREPEND aglow_)
-    target_link_libraries(aglow_${name} PUBLIC ${STAGE_USES} PRIVATE ${STAGE_LINK})
+    target_link_libraries(aglow_${name} PUBLIC ${STAGE_USES} tl::expected PRIVATE ${STAGE_LINK})
     aglow_compile_options(aglow_${name})
 
     if(AGLOW_BUILD_TESTS AND tests)
-        enable_testing()
-        add_executable(${name}_test ${tests} ${CMAKE_CURRENT_SOURCE_DIR}/tests/doctest_main.cpp)
-        target_link_libraries(${name}_test PRIVATE aglow_${name} ${STAGE_LINK} rapidcheck)
-        aglow_compile_options(${name}_test)
-        add_test(NAME ${name} COMMAND ${name}_test)
+        aglow_doctest(${name} SOURCES ${tests} LINK aglow_${name} ${STAGE_LINK})
     endif()
+    set_property(GLOBAL APPEND PROPERTY AGLOW_STAGES ${name})
 endfunction()

@@ -52,14 +52,14 @@ struct Baked {
 /// Errors  of the stages; bad_argument where the scene has no triangles.
 Result<Baked> bake(Scene scene, const BakeOptions& options, const Monitor& monitor = {});
 
-/// Illuminance at free sensors. The gather solver first lights the scene's texels at
-/// `options.unwrap`, then gathers at the sensors; the path solver traces from the sensors alone.
+/// Illuminance at free sensors, in their order. The gather solver first lights the scene's texels
+/// at `options.unwrap`, then gathers at the sensors; the path solver traces from the sensors alone.
 Result<IrradianceField> measure(Scene scene, std::span<const Receiver> sensors,
                                 const BakeOptions& options, const Monitor& monitor = {});
 
-/// Points on the upward faces of a scene (normal within 45 degrees of +Y), on a horizontal grid of
-/// `spacing` metres, 1 mm above the surface relative to a room of metres; in order of part, row,
-/// column.
+/// Sensors on the upward faces of a scene (geometric normal within 45 degrees of +Y), on a
+/// horizontal grid of `spacing` metres (points at odd multiples of half the spacing); they lie on
+/// the surface, face along its normal, and are in order of part, row, column.
 std::vector<Receiver> grid_sensors(const Scene& scene, float spacing, double time = -1);
 
 }  // namespace aglow

@@ -39,9 +39,11 @@ public:
     bool has_emitters() const;
     LightSample emitter(vec3 p, vec3 n, vec3 u) const;
     /// Luminance that leaves a hit emissive surface towards a ray that arrives on its front
-    /// (`front`) or back, and the pdf (1/sr) with which emitter() would have drawn that direction
-    /// from (p, n).
+    /// (`front`) or back.
     vec3 emitted(const SurfacePoint& at, bool front) const;
+    /// 1/sr with which emitter() draws the direction from a receiver at (p, n) to the point `at`; 0
+    /// for triangles that do not emit.
+    float emitter_pdf(vec3 p, vec3 n, const SurfacePoint& at) const;
 
     /// Sky: a direction by luminance. has_sky() is false where it is black; samples_sky() is false
     /// for a uniform sky, which cosine-distributed rays sample best.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/accel/ray_scene.h"
+
+#include "aglow/accel/cpu/embree_scene.h"
+
+namespace aglow {
+
+RayScene::RayScene(std::unique_ptr<accel::cpu::EmbreeScene> cpu) : cpu_(std::move(cpu)) {}
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+Result<RayScene> RayScene::create(const Scene& scene, const Surfaces& surfaces) {
+    AG_TRY(auto cpu, accel::cpu::EmbreeScene::create(scene, surfaces));
+    return RayScene(std::move(cpu));
+}
+
+std::optional<Hit> RayScene::intersect(const Ray& ray) const {
+    accel::cpu::SurfaceHit hit;
+    if (!cpu_->intersect(ray.origin, ray.direction, ray.far, hit)) return std::nullopt;
+    return Hit{hit.at, hit.distance, hit.front};
+}
+
+bool RayScene::occluded(const Ray& ray) const {
+    return cpu_->occluded(ray.origin, ray.direction, ray.far);
+}
+
+vec3 offset_origin(vec3 p, vec3 n, float magnitude) {
+    // A point made of three weighted corners errs by up to 4 half units in the last place, 2^-22 of
+    // the largest coordinate, and so does the plane that a ray test sees; 2^-18 is 8 times both.
+    constexpr float kRoundingBound = 0x1p-18f;
+    return p + n * (kRoundingBound * magnitude);
+}
+
+float coordinate_magnitude(const Surfaces& surfaces, uint32_t triangle) {
+    float magnitude = 0;
+    for (int i = 0; i < 3; ++i) {
+        const vec3 corner = surfaces.corner(triangle, i);
+        for (const float component : {corner.x, corner.y, corner.z})
+            magnitude = shared::max(magnitude, shared::abs(component));
+    }
+    return magnitude;
+}
+
+}  // namespace aglow
