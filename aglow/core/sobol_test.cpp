@@ -33,17 +33,23 @@ TEST_CASE("every elementary interval of a power of two holds exactly one scrambl
         }
 }
 
-TEST_CASE("the three-dimensional points are stratified in each coordinate and integrate xyz") {
-    constexpr uint kCount = 1024;
+TEST_CASE("each of the four coordinates is stratified, and they integrate a product of all") {
+    constexpr uint kCount = 4096;
     double sum = 0;
-    std::set<uint> strata;
+    std::set<uint> strata[4];
     for (uint i = 0; i < kCount; ++i) {
-        const vec3 p = owen_sobol_3d(i, 5);
-        strata.insert(static_cast<uint>(p.z * kCount));
-        sum += static_cast<double>(p.x) * static_cast<double>(p.y) * static_cast<double>(p.z);
+        const SobolPoint p = sobol_point(i);
+        double product = 1;
+        uint k = 0;
+        for (const uint coordinate : {p.x, p.y, p.z, p.w}) {
+            const float u = owen_scramble(coordinate, hash_pair(5, k));
+            strata[k++].insert(static_cast<uint>(u * kCount));
+            product *= static_cast<double>(u);
+        }
+        sum += product;
     }
-    CHECK(strata.size() == kCount);
-    CHECK(sum / kCount == doctest::Approx(0.125).epsilon(0.002));
+    for (const auto& hit : strata) CHECK(hit.size() == kCount);
+    CHECK(sum / kCount == doctest::Approx(1.0 / 16).epsilon(0.003));
 }
 
 TEST_CASE("sequences of different seeds are uncorrelated") {

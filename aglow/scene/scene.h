@@ -19,7 +19,8 @@ namespace aglow {
 struct Scene;
 
 /// 8-bit RGBA as decoded from PNG, JPEG or WebP. Which channels are sRGB-coded depends on use:
-/// base colour and emission are, metallic-roughness is not.
+/// base colour and emission are, metallic-roughness is not. Images that no material's light depends
+/// on (normal maps, occlusion) are not decoded and have 0 x 0 pixels.
 struct TextureImage {
     std::string name;
     int width = 0;
