@@ -11,7 +11,9 @@ namespace aglow {
 struct UnwrapOptions {
     /// Wanted edge length of a texel, m; 0: as fine as `resolution` allows.
     float texel_size = 0;
-    int resolution = 1024;       ///< width of the atlas in texels where texel_size is 0
+    /// Width of the atlas in texels where texel_size is 0. It is no higher than wide, unless the
+    /// charts are so many that one texel for each needs more rows.
+    int resolution = 1024;
     int max_resolution = 16384;  ///< width and height the atlas may reach
     int gutter = 2;              ///< free texels between any two charts and at the border
 };
@@ -30,7 +32,7 @@ enum class UvOrigin : uint8_t { file, charts };
 /// The lightmap's floor plan.
 struct Atlas {
     int width = 0, height = 0;          ///< texels
-    float texel_size = 0;               ///< m, reached for placements at unit stretch
+    float texel_size = 0;               ///< m, the larger side of a texel on the surface
     std::vector<Placement> placements;  ///< [placed meshes], in the order of nodes and instances
     std::vector<UvOrigin> origins;      ///< [mesh] where its lightmap UVs come from
     int chart_count = 0;                ///< of all meshes, made or found
@@ -42,9 +44,12 @@ struct Atlas {
 /// A mesh keeps its TEXCOORD_1 where that is valid: in range, no overlap, no triangle without area.
 /// Otherwise its triangles are segmented into charts whose normals stay within a bound,
 /// parameterised with low stretch, and packed with gutters. Vertices on chart borders are split;
-/// Primitive::source_vertex says where each came from. No triangle is lost; those of zero area
-/// get a point of their own inside the gutter. Texel density is uniform over the world: it
-/// follows each instance's scale.
+/// Primitive::source_vertex says where each came from. No triangle is lost; those whose corners
+/// coincide get a point in the gutter. Texel density is uniform over the world: it follows each
+/// instance's scale. Charts are fitted to whole texels (at most 2 % off in length); one narrower
+/// than a texel is widened to it. Where rows of an atlas of given resolution would be left over,
+/// texels are made up to 1.4 times finer along v. Meshes that no node of the scene places are left
+/// as they are.
 ///
 /// Errors  bad_argument  a texel size or resolution that cannot hold the charts even at the
 ///                       largest size allowed; says which size would do.
