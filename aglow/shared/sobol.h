@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owen-scrambled Sobol points in two and three dimensions, by hashing: point `index` of the
-// sequence that belongs to `seed`. Every prefix of 2^k points is stratified; sequences of different
-// seeds are independent.
+// Owen-scrambled Sobol points in four dimensions, by hashing. Every prefix of 2^k points is
+// stratified in the square of the first two coordinates and in each coordinate; scrambles by
+// different seeds make independent sequences out of the same points. Two integrands that are only
+// added up may share coordinates under different seeds.
 //
 // Source: Joe & Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections",
 // SIAM J. Sci. Comput. 2008 (direction numbers); Laine & Karras, "Stratified Sampling for
@@ -30,37 +31,40 @@ AG_FN uint reverse_bits(uint x) {
     return ((x & 0x55555555u) << 1u) | ((x & 0xaaaaaaaau) >> 1u);
 }
 
-// Owen scrambling: each bit is flipped depending on the bits above it only. The multiplications
-// by even numbers carry from low to high bits, hence the reversals around them.
-AG_FN uint owen_scramble(uint x, uint seed) {
-    x = reverse_bits(x) + seed;
-    x = x ^ (x * 0x6c50b47cu);
-    x = x ^ (x * 0xb82f1e52u);
-    x = x ^ (x * 0xc7afe638u);
-    x = x ^ (x * 0x8d22f6e6u);
-    return reverse_bits(x);
-}
+// Coordinates of a Sobol point as 32-bit fractions with their bits reversed: the most significant
+// binary digit is bit 0, which is the order that owen_scramble() works in.
+struct SobolPoint {
+    uint x, y, z, w;
+};
 
-// The first three Sobol coordinates of `index` as 32-bit fractions. Direction numbers of the second
-// follow v' = v ^ (v >> 1); of the third, with polynomial x^2 + x + 1 and initial numbers
-// 1, 3, v'' = v' ^ v ^ (v >> 2) with v scaled to its bit.
-AG_FN uvec3 sobol_bits(uint index) {
-    uvec3 point;
-    point.x = reverse_bits(index);
+// Direction numbers, reversed like the points, follow from those before them: y(k+1) = y(k) ^ 2
+// y(k) and, for the primitive polynomials t^2 + t + 1 and t^3 + t + 1, z(k+2) = z(k+1) ^ z(k) ^ 4
+// z(k) and w(k+3) = w(k+1) ^ w(k) ^ 8 w(k). Initial numbers are 1, 3 for z and 1, 3, 1 for w.
+AG_FN SobolPoint sobol_point(uint index) {
+    SobolPoint point;
+    point.x = index;
     point.y = 0u;
     point.z = 0u;
-    uint second = 0x80000000u;
-    uint third = 0x80000000u;
-    uint third_next = 0xc0000000u;
+    point.w = 0u;
+    uint y = 1u;
+    uint z0 = 1u;
+    uint z1 = 3u;
+    uint w0 = 1u;
+    uint w1 = 3u;
+    uint w2 = 4u;
     for (uint rest = index; rest != 0u; rest = rest >> 1u) {
-        if ((rest & 1u) != 0u) {
-            point.y = point.y ^ second;
-            point.z = point.z ^ third;
-        }
-        second = second ^ (second >> 1u);
-        uint third_after = third_next ^ third ^ (third >> 2u);
-        third = third_next;
-        third_next = third_after;
+        uint digit = 0u - (rest & 1u);
+        point.y = point.y ^ (y & digit);
+        point.z = point.z ^ (z0 & digit);
+        point.w = point.w ^ (w0 & digit);
+        y = y ^ (y << 1u);
+        uint z2 = z1 ^ z0 ^ (z0 << 2u);
+        z0 = z1;
+        z1 = z2;
+        uint w3 = w1 ^ w0 ^ (w0 << 3u);
+        w0 = w1;
+        w1 = w2;
+        w2 = w3;
     }
     return point;
 }
@@ -68,22 +72,32 @@ AG_FN uvec3 sobol_bits(uint index) {
 // The 24 leading bits as a float in [0, 1).
 AG_FN float unit_float(uint bits) { return float(bits >> 8u) * 5.9604645e-8f; }
 
-// Shuffling the index by an Owen scramble keeps every 2^k prefix a (0, k, 2)-net while making
-// sequences of different seeds independent of each other.
+// Owen scrambling of a reversed coordinate, as a float in [0, 1): each binary digit is flipped
+// depending on the digits before it. Multiplications by even numbers carry from bit 0 upwards,
+// that is, from each digit to those behind it.
+AG_FN float owen_scramble(uint reversed, uint seed) {
+    uint x = reversed + seed;
+    x = x ^ (x * 0x6c50b47cu);
+    x = x ^ (x * 0xb82f1e52u);
+    x = x ^ (x * 0xc7afe638u);
+    x = x ^ (x * 0x8d22f6e6u);
+    return unit_float(reverse_bits(x));
+}
+
 AG_FN vec2 owen_sobol_2d(uint index, uint seed) {
-    uvec3 p = sobol_bits(owen_scramble(index, hash_bits(seed)));
+    SobolPoint p = sobol_point(index);
     vec2 result;
-    result.x = unit_float(owen_scramble(p.x, hash_pair(seed, 1u)));
-    result.y = unit_float(owen_scramble(p.y, hash_pair(seed, 2u)));
+    result.x = owen_scramble(p.x, hash_pair(seed, 1u));
+    result.y = owen_scramble(p.y, hash_pair(seed, 2u));
     return result;
 }
 
 AG_FN vec3 owen_sobol_3d(uint index, uint seed) {
-    uvec3 p = sobol_bits(owen_scramble(index, hash_bits(seed)));
+    SobolPoint p = sobol_point(index);
     vec3 result;
-    result.x = unit_float(owen_scramble(p.x, hash_pair(seed, 1u)));
-    result.y = unit_float(owen_scramble(p.y, hash_pair(seed, 2u)));
-    result.z = unit_float(owen_scramble(p.z, hash_pair(seed, 3u)));
+    result.x = owen_scramble(p.x, hash_pair(seed, 1u));
+    result.y = owen_scramble(p.y, hash_pair(seed, 2u));
+    result.z = owen_scramble(p.z, hash_pair(seed, 3u));
     return result;
 }
 

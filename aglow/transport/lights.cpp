@@ -50,6 +50,16 @@ float mean_emission(const Scene& scene, const Surfaces& surfaces, uint32_t trian
     return shared::max(sum / 9, 0.02f * luminance(factor));
 }
 
+/// An emissive triangle, with what sampling needs of it.
+struct Emitter {
+    uint32_t triangle;
+    vec3 corner[3];
+    vec3 normal;
+    float magnitude;  ///< see coordinate_magnitude()
+    bool even;        ///< emits `emission` all over, from its front only
+    vec3 emission;
+};
+
 constexpr uint32_t kNotEmitting = 0xffffffffu;
 
 }  // namespace
@@ -58,7 +68,7 @@ struct Lights::Data {
     const Scene& scene;
     const Surfaces& surfaces;
     std::vector<Delta> deltas = {};
-    std::vector<uint32_t> emitters = {};    // triangles, in order of the tree's emitters
+    std::vector<Emitter> emitters = {};     // in order of the tree's
     std::vector<uint32_t> emitter_of = {};  // [triangle] the reverse, or kNotEmitting
     transport::LightTree tree = {};
     transport::SkyDistribution sky_image = {};
@@ -94,7 +104,14 @@ void Lights::Data::collect_emitters() {
         e.power = kPi * size * mean_emission(scene, surfaces, triangle, m->emission);
         e.two_sided = m->double_sided;
         emitter_of[triangle] = static_cast<uint32_t>(emitters.size());
-        emitters.push_back(triangle);
+        emitters.push_back({triangle,
+                            {surfaces.corner(triangle, 0), surfaces.corner(triangle, 1),
+                             surfaces.corner(triangle, 2)},
+                            e.normal,
+                            coordinate_magnitude(surfaces, triangle),
+                            m->emissive_texture.texture < 0 && !m->double_sided &&
+                                m->alpha_mode == AlphaMode::opaque,
+                            m->emission});
         tree_emitters.push_back(e);
     }
     tree = transport::LightTree(tree_emitters);
@@ -130,24 +147,22 @@ bool Lights::has_emitters() const { return !data_->tree.empty(); }
 LightSample Lights::emitter(vec3 p, vec3 n, vec3 u) const {
     const auto choice = data_->tree.draw(p, n, u.x);
     if (!(choice.probability > 0)) return {};
-    const uint32_t triangle = data_->emitters[choice.emitter];
-    const Surfaces& surfaces = data_->surfaces;
-    const auto sample = transport::sample_triangle(surfaces.corner(triangle, 0) - p,
-                                                   surfaces.corner(triangle, 1) - p,
-                                                   surfaces.corner(triangle, 2) - p, {u.y, u.z});
+    const Emitter& light = data_->emitters[choice.emitter];
+    const auto& [a, b, c] = light.corner;
+    const auto sample = transport::sample_triangle(a - p, b - p, c - p, {u.y, u.z});
     if (!(sample.pdf > 0)) return {};
 
-    const SurfacePoint at{triangle, sample.barycentrics};
-    const vec3 normal = geometric_normal(surfaces, triangle);
-    const vec3 on_light = position(surfaces, at);
-    const bool front = dot(normal, p - on_light) > 0;
-    const vec3 emission = emitted(at, front);
+    const vec2 at = sample.barycentrics;
+    const vec3 on_light = a * (1 - at.x - at.y) + b * at.x + c * at.y;
+    const bool front = dot(light.normal, p - on_light) > 0;
+    if (light.even && !front) return {};
+    const vec3 emission = light.even ? light.emission : emitted({light.triangle, at}, front);
     if (!(luminance(emission) > 0)) return {};
 
     // The shadow ray ends just above the light, so that it meets neither the light nor a twin of
     // it.
     const vec3 target =
-        offset_origin(on_light, front ? normal : -normal, coordinate_magnitude(surfaces, triangle));
+        offset_origin(on_light, front ? light.normal : -light.normal, light.magnitude);
     const vec3 to_light = target - p;
     const float distance = length(to_light);
     if (!(distance > 0)) return {};
@@ -167,11 +182,9 @@ vec3 Lights::emitted(const SurfacePoint& at, bool front) const {
 float Lights::emitter_pdf(vec3 p, vec3 n, const SurfacePoint& at) const {
     const uint32_t emitter = data_->emitter_of[at.triangle];
     if (emitter == kNotEmitting) return 0;
-    const Surfaces& surfaces = data_->surfaces;
+    const auto& [a, b, c] = data_->emitters[emitter].corner;
     return data_->tree.probability(emitter, p, n) *
-           transport::triangle_pdf(surfaces.corner(at.triangle, 0) - p,
-                                   surfaces.corner(at.triangle, 1) - p,
-                                   surfaces.corner(at.triangle, 2) - p, at.barycentrics);
+           transport::triangle_pdf(a - p, b - p, c - p, at.barycentrics);
 }
 
 bool Lights::has_sky() const {

@@ -12,6 +12,24 @@ float axis_of(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z
 
 float safe_acos(float c) { return std::acos(std::clamp(c, -1.0f, 1.0f)); }
 
+/// An angle in [0, pi] by its sine and cosine, so that bounds need no inverse functions.
+struct Angle {
+    float sine, cosine;
+};
+
+Angle angle_of_cosine(float c) {
+    const float cosine = std::clamp(c, -1.0f, 1.0f);
+    return {std::sqrt(1 - cosine * cosine), cosine};
+}
+
+Angle angle_of_sine(float s) { return {s, std::sqrt(std::max(0.0f, 1 - s * s))}; }
+
+/// max(0, a - b)
+Angle subtract(Angle a, Angle b) {
+    if (a.cosine >= b.cosine) return {0, 1};
+    return {a.sine * b.cosine - a.cosine * b.sine, a.cosine * b.cosine + a.sine * b.sine};
+}
+
 struct Cone {
     vec3 axis;
     float half_angle;
@@ -47,7 +65,7 @@ uint32_t LightTree::build(std::span<uint32_t> order, std::span<const TreeEmitter
     nodes_.emplace_back();
     if (order.size() == 1) {
         const TreeEmitter& e = emitters[order[0]];
-        nodes_[index] = {e.bounds, e.normal, 0, e.power, e.two_sided, order[0], 0, 0};
+        nodes_[index] = {e.bounds, e.normal, 0, 0, 1, e.power, e.two_sided, order[0], 0, 0};
         leaf_of_[order[0]] = index;
         return index;
     }
@@ -71,9 +89,16 @@ uint32_t LightTree::build(std::span<uint32_t> order, std::span<const TreeEmitter
     Box bounds = a.bounds;
     bounds.add(b.bounds.lo);
     bounds.add(b.bounds.hi);
-    nodes_[index] = {
-        bounds, cone.axis, cone.half_angle, a.power + b.power, a.two_sided || b.two_sided, 0,
-        right,  0};
+    nodes_[index] = {bounds,
+                     cone.axis,
+                     cone.half_angle,
+                     std::sin(cone.half_angle),
+                     std::cos(cone.half_angle),
+                     a.power + b.power,
+                     a.two_sided || b.two_sided,
+                     0,
+                     right,
+                     0};
     nodes_[left].parent = nodes_[right].parent = index;
     return index;
 }
@@ -88,16 +113,16 @@ float LightTree::importance(const Node& node, vec3 p, vec3 n) {
 
     const float distance = std::sqrt(distance2);
     const vec3 direction = to_light / distance;
-    const float bounding_angle = std::asin(std::sqrt(radius2 / distance2));
-    const float receiver_angle = std::max(0.0f, safe_acos(dot(n, direction)) - bounding_angle);
-    if (receiver_angle >= kPi / 2) return 0;
+    const Angle bounding = angle_of_sine(std::sqrt(radius2 / distance2));
+    const float cos_receiver = subtract(angle_of_cosine(dot(n, direction)), bounding).cosine;
+    if (cos_receiver <= 0) return 0;
 
     float cos_axis = -dot(node.axis, direction);
     if (node.two_sided) cos_axis = std::abs(cos_axis);
-    const float emitter_angle =
-        std::max(0.0f, safe_acos(cos_axis) - node.half_angle - bounding_angle);
-    if (emitter_angle >= kPi / 2) return 0;
-    return node.power * std::cos(receiver_angle) * std::cos(emitter_angle) / distance2;
+    const Angle beyond_cone = subtract(angle_of_cosine(cos_axis), {node.sin_half, node.cos_half});
+    const float cos_emitter = subtract(beyond_cone, bounding).cosine;
+    if (cos_emitter <= 0) return 0;
+    return node.power * cos_receiver * cos_emitter / distance2;
 }
 
 LightTree::Choice LightTree::draw(vec3 p, vec3 n, float u) const {

@@ -45,6 +45,7 @@ private:
         Box bounds;
         vec3 axis = {0, 0, 1};  ///< of the cone that holds all normals
         float half_angle = 0;   ///< of that cone, radians
+        float sin_half = 0, cos_half = 1;
         float power = 0;
         bool two_sided = false;
         uint32_t emitter = 0;  ///< leaf: which

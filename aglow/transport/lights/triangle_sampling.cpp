@@ -7,9 +7,21 @@
 namespace aglow::transport {
 namespace {
 
-/// Below this the spherical construction loses too many digits, and density over the triangle is
-/// even anyway: at 3e-3 sr the cosine and the distance vary by a few per cent.
-constexpr float kSmallestSolidAngle = 3e-3f;
+/// Is the triangle so far away, for its size, that points even over its area are as good as
+/// directions even over its solid angle? Beyond twice its longest edge the density of one in
+/// terms of the other varies by about a half; nearer, double precision carries the spherical
+/// construction.
+bool is_far(vec3 a, vec3 b, vec3 c) {
+    constexpr float kFar2 = 2 * 2;
+    const vec3 centroid = (a + b + c) / 3;
+    const vec3 e1 = b - a, e2 = c - b, e3 = a - c;
+    const float edge2 = std::max(
+        {aglow::shared::dot(e1, e1), aglow::shared::dot(e2, e2), aglow::shared::dot(e3, e3)});
+    return aglow::shared::dot(centroid, centroid) > kFar2 * edge2;
+}
+
+/// Steradians below which even double precision leaves the spherical construction.
+constexpr float kSmallestSolidAngle = 1e-6f;
 
 struct DVec {
     double x, y, z;
@@ -64,6 +76,7 @@ float solid_angle(vec3 a, vec3 b, vec3 c) {
 }
 
 float triangle_pdf(vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
+    if (is_far(a, b, c)) return area_pdf(a, b, c, barycentrics);
     const float omega = solid_angle(a, b, c);
     return omega > kSmallestSolidAngle ? 1 / omega : area_pdf(a, b, c, barycentrics);
 }
@@ -71,6 +84,7 @@ float triangle_pdf(vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
 // The area of the sub-triangle (A, B, C') is u.x of the whole, which fixes C' on the arc from A to
 // C; u.y then picks a point on the arc from B to C'.
 TriangleSample sample_triangle(vec3 a, vec3 b, vec3 c, vec2 u) {
+    if (is_far(a, b, c)) return sample_area(a, b, c, u);
     const float omega = solid_angle(a, b, c);
     if (!(omega > kSmallestSolidAngle)) return sample_area(a, b, c, u);
 

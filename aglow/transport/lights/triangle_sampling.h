@@ -5,7 +5,7 @@
 namespace aglow::transport {
 
 /// A direction towards a triangle, drawn in proportion to solid angle, or a point on it drawn in
-/// proportion to area where it is so small that the solid angle cannot be told in single precision.
+/// proportion to area where it is so far away that this is as even.
 struct TriangleSample {
     vec2 barycentrics = {0, 0};
     float pdf = 0;  ///< 1/sr as seen from the receiver; 0: the triangle is degenerate or edge-on

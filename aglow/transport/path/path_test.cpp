@@ -214,12 +214,17 @@ TEST_CASE("a sky image is weighted between sky sampling and cosine sampling with
     scene.sky = Sky{{1, 1, 1}, image};
     const Stage stage(std::move(scene));
     REQUIRE(stage.lights.samples_sky());
-    const std::vector receivers = {sensor({0, 1, 0}, {0, 1, 0}), sensor({0, 1, 0}, {0, 0, -1})};
-    const auto field = trace_receivers(stage.world(), receivers, {.bounces = 0, .samples = 20000});
-    REQUIRE(field);
-    CHECK(luminance(field->values[0].direct) == doctest::Approx(55 * kPi).epsilon(0.01));
-    CHECK(std::abs(luminance(field->values[0].direct) - 55 * kPi) < 4 * field->standard_error[0]);
-    CHECK(luminance(field->values[1].direct) == doctest::Approx(100 * kPi).epsilon(0.01));
+    const auto seen_by = [&](const Receiver& receiver) {
+        const std::vector<Receiver> same(32, receiver);
+        const auto field = trace_receivers(stage.world(), same, {.bounces = 0, .samples = 20000});
+        return mean_of(field.value(), [](const Irradiance& e) { return e.direct; });
+    };
+    const Mean up = seen_by(sensor({0, 1, 0}, {0, 1, 0}));
+    CHECK(up.error < 1e-3 * 55 * double{kPi});
+    CHECK(std::abs(up.value - 55 * double{kPi}) < 4 * up.error);
+    const Mean north = seen_by(sensor({0, 1, 0}, {0, 0, -1}));
+    CHECK(north.error < 1e-3 * 100 * double{kPi});
+    CHECK(std::abs(north.value - 100 * double{kPi}) < 4 * north.error + 0.01);
 }
 
 TEST_CASE("the standard error says how far results scatter") {
@@ -289,6 +294,21 @@ TEST_CASE("an image of a furnace shows the same luminance everywhere") {
     double sum = 0;
     for (vec3 pixel : image->pixels) sum += double{luminance(pixel)};
     CHECK(sum / 64 == doctest::Approx(100 / (1 - 0.5)).epsilon(0.01));
+}
+
+TEST_CASE("a surface lit by a lamp has the luminance rho / pi * E on either side") {
+    Scene scene = scene_of(ground(1e-3f), 0.4f);
+    add_point_light(scene, {0, 2, 0}, 4 * kPi * 100);   // 100 cd
+    add_point_light(scene, {0, -1, 0}, 4 * kPi * 100);  // below
+    const Stage stage(std::move(scene));
+    const auto luminance_from = [&](float height) {
+        const auto camera = [&](float, float) {
+            return Ray{{0, height, 0}, {0, height > 0 ? -1.0f : 1.0f, 0}};
+        };
+        return trace_image(stage.world(), 1, 1, camera, {.bounces = 0, .samples = 3})->pixels[0].y;
+    };
+    CHECK(luminance_from(1) == doctest::Approx(0.4 / double{kPi} * 25).epsilon(1e-4));
+    CHECK(luminance_from(-1) == doctest::Approx(0.4 / double{kPi} * 100).epsilon(1e-4));
 }
 
 TEST_CASE("camera rays that leave the scene see the sky") {

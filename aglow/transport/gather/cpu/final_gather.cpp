@@ -62,8 +62,12 @@ Gathered gather_points(const World& world, const TexelMap& map, const GatherCach
     const auto max_samples = static_cast<uint32_t>(options.max_samples);
 
     vec3 delta{0, 0, 0};
-    for (const Receiver& point : points)
-        delta += delta_irradiance(world, vantage_of(point), ray_count);
+    std::vector<Outlook> outlooks;
+    outlooks.reserve(points.size());
+    for (const Receiver& point : points) {
+        outlooks.emplace_back(vantage_of(point));
+        delta += delta_irradiance(world, outlooks.back().at, ray_count);
+    }
     delta = delta / static_cast<float>(points.size());
 
     Collector collector{cache, options.bounces};
@@ -75,11 +79,12 @@ Gathered gather_points(const World& world, const TexelMap& map, const GatherCach
             const vec3 before = collector.direct_sum + collector.indirect_sum;
             const uint32_t batch_end = std::min(done + kBatch, end), batch_begin = done;
             for (; done < batch_end; ++done) {
-                const Vantage at = vantage_of(points[done % points.size()]);
-                collector.direct_sum += sampled_irradiance(world, at, samples.emitter(done),
-                                                           samples.sky(done), ray_count);
+                const Samples::Draw draw = samples.draw(done, world.lights.samples_sky());
+                const Outlook& from = pick(outlooks, draw.point);
+                collector.direct_sum +=
+                    sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
                 if (looks_around)
-                    gather_ray(world, map, at, Frame(at.normal), samples, done, max_backs,
+                    gather_ray(world, map, from, samples, done, draw.hemisphere, max_backs,
                                collector, ray_count);
             }
             const vec3 gained = collector.direct_sum + collector.indirect_sum - before;

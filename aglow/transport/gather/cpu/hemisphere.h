@@ -7,25 +7,62 @@
 #include "aglow/transport/gather/cpu/direct_light.h"
 #include "aglow/transport/gather/cpu/texel_map.h"
 
+#include <algorithm>
+#include <iterator>
+#include <span>
+
 namespace aglow::transport::cpu {
 
 /// The random numbers of one receiver: stratified ones for its own samples, a plain stream for
 /// the rare paths that go on behind a surface.
 class Samples {
 public:
+    struct Draw {
+        vec2 hemisphere;
+        float point;  ///< which of the receiver's points: stratified together with the others
+        vec3 emitter;
+        vec2 sky;
+    };
     Samples(uint64_t seed, uint32_t receiver, uint32_t purpose)
         : seed_(shared::hash_pair(
-              shared::hash_pair(static_cast<uint32_t>(mix_bits(seed)), receiver), purpose)) {}
-    vec2 hemisphere(uint32_t i) const {
-        return shared::owen_sobol_2d(i, shared::hash_pair(seed_, 1));
+              shared::hash_pair(static_cast<uint32_t>(mix_bits(seed)), receiver), purpose)) {
+        for (uint32_t i = 0; i < std::size(scramble_); ++i)
+            scramble_[i] = shared::hash_pair(seed_, i);
     }
-    vec3 emitter(uint32_t i) const { return shared::owen_sobol_3d(i, shared::hash_pair(seed_, 2)); }
-    vec2 sky(uint32_t i) const { return shared::owen_sobol_2d(i, shared::hash_pair(seed_, 3)); }
+    /// Hemisphere, emitter and sky estimates are summed, so they may share coordinates.
+    Draw draw(uint32_t i, bool with_sky) const {
+        const shared::SobolPoint p = shared::sobol_point(i);
+        Draw result;
+        result.hemisphere = {shared::owen_scramble(p.x, scramble_[0]),
+                             shared::owen_scramble(p.y, scramble_[1])};
+        result.point = shared::owen_scramble(p.z, scramble_[2]);
+        result.emitter = {shared::owen_scramble(p.w, scramble_[3]),
+                          shared::owen_scramble(p.x, scramble_[4]),
+                          shared::owen_scramble(p.y, scramble_[5])};
+        result.sky = with_sky ? vec2{shared::owen_scramble(p.x, scramble_[6]),
+                                     shared::owen_scramble(p.y, scramble_[7])}
+                              : vec2{0, 0};
+        return result;
+    }
     Pcg32 path(uint32_t i) const { return Pcg32(seed_, i); }
 
 private:
     uint32_t seed_;
+    uint32_t scramble_[8];
 };
+
+/// A vantage and the frame about its normal.
+struct Outlook {
+    Vantage at;
+    Frame frame;
+    explicit Outlook(const Vantage& vantage) : at(vantage), frame(vantage.normal) {}
+};
+
+/// The outlook that a number in [0, 1) picks.
+inline const Outlook& pick(std::span<const Outlook> outlooks, float u) {
+    const auto i = static_cast<size_t>(u * static_cast<float>(outlooks.size()));
+    return outlooks[std::min(i, outlooks.size() - 1)];
+}
 
 /// What a hemisphere ray finds, told to a visitor with three members:
 ///   direct(irradiance)           sky or emission seen from the receiver itself
@@ -70,12 +107,13 @@ void follow_backs(const World& world, const TexelMap& map, accel::cpu::SurfaceHi
     }
 }
 
-/// Sends ray `i` of a receiver and tells the visitor what it finds.
+/// Sends ray `i` of a receiver from one of its points and tells the visitor what it finds.
 template <class Visitor>
-void gather_ray(const World& world, const TexelMap& map, const Vantage& at, const Frame& frame,
-                const Samples& samples, uint32_t i, int max_backs, Visitor&& visitor,
+void gather_ray(const World& world, const TexelMap& map, const Outlook& from,
+                const Samples& samples, uint32_t i, vec2 u, int max_backs, Visitor&& visitor,
                 uint64_t& ray_count) {
-    const vec3 direction = frame.to_world(shared::cosine_hemisphere(samples.hemisphere(i)));
+    const Vantage& at = from.at;
+    const vec3 direction = from.frame.to_world(shared::cosine_hemisphere(u));
     if (!(dot(direction, at.geometric_normal) > 0)) return;
     ++ray_count;
     accel::cpu::SurfaceHit hit;

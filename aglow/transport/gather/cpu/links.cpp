@@ -43,25 +43,25 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
     const int max_backs = options.bounces == kConverged ? kUnlimited : options.bounces - 1;
 
     vec3 delta{0, 0, 0}, sampled{0, 0, 0}, reflectance{0, 0, 0};
+    std::vector<Outlook> outlooks;
+    outlooks.reserve(point_count);
+    for (uint32_t p = first; p < first + point_count; ++p) {
+        outlooks.emplace_back(vantage_on(world.surfaces, texels.samples[p], true));
+        delta += delta_irradiance(world, outlooks.back().at, ray_count);
+        reflectance += diffuse_reflectance(world.scene, world.surfaces, texels.samples[p]);
+    }
     LinkCollector collector{std::span(links.to).subspan(size_t{element} * ray_total, ray_total),
                             backs, sampled, element};
-    const uint32_t used_points = std::min(point_count, ray_total);
-    for (uint32_t p = 0; p < used_points; ++p) {
-        const SurfacePoint at = texels.samples[first + p];
-        const Vantage vantage = vantage_on(world.surfaces, at, true);
-        const Frame frame(vantage.normal);
-        delta += delta_irradiance(world, vantage, ray_count);
-        reflectance += diffuse_reflectance(world.scene, world.surfaces, at);
-        for (uint32_t i = p; i < ray_total; i += used_points) {
-            collector.ray = i;
-            sampled +=
-                sampled_irradiance(world, vantage, samples.emitter(i), samples.sky(i), ray_count);
-            gather_ray(world, map, vantage, frame, samples, i, max_backs, collector, ray_count);
-        }
+    for (uint32_t i = 0; i < ray_total; ++i) {
+        const Samples::Draw draw = samples.draw(i, world.lights.samples_sky());
+        const Outlook& from = pick(outlooks, draw.point);
+        collector.ray = i;
+        sampled += sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
+        gather_ray(world, map, from, samples, i, draw.hemisphere, max_backs, collector, ray_count);
     }
-    links.direct[element] =
-        delta / static_cast<float>(used_points) + sampled / static_cast<float>(ray_total);
-    links.reflectance[element] = reflectance / static_cast<float>(used_points);
+    const float weight = 1 / static_cast<float>(point_count);
+    links.direct[element] = delta * weight + sampled / static_cast<float>(ray_total);
+    links.reflectance[element] = reflectance * weight;
 }
 
 /// sum over links of exitance, for texels [begin, end): `result` = direct + G B.
