@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/core/assert.h"
+#include "aglow/core/file.h"
+#include "aglow/encode/gltf/external_images.h"
+#include "aglow/encode/gltf/forms.h"
+#include "aglow/encode/gltf/light_coding.h"
+#include "aglow/encode/gltf/output_set.h"
+#include "aglow/encode/gltf/pack.h"
+#include "aglow/encode/gltf/unlit_picture.h"
+#include "aglow/encode/lit_gltf.h"
+#include "aglow/scene/image_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+namespace aglow {
+namespace {
+
+namespace fs = std::filesystem;
+using encode::Json;
+
+/// The files that stand beside each other under one stem.
+struct Names {
+    fs::path scene, bin, exr, png, manifest;
+    bool binary = true;  ///< .glb
+};
+
+Result<Names> names_of(const fs::path& path, LitForm form) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending != ".glb" && ending != ".gltf")
+        return fail(Errc::bad_argument, "a lit scene is written as .glb or .gltf", path.string());
+    const auto beside = [&](const char* tail) {
+        return path.parent_path() / (path.stem().string() + tail);
+    };
+    const char* png = form == LitForm::unlit ? ".unlit.png" : ".lightmap.png";
+    return Names{path,        beside(".bin"),           beside(".exr"),
+                 beside(png), beside(".manifest.json"), ending == ".glb"};
+}
+
+std::string text_of(const fs::path& path) { return path.filename().string(); }
+
+Result<Json> manifest(const Names& names, const Atlas& atlas, const Texels& texels,
+                      const encode::CodedLight& coded, const LitOptions& options) {
+    const Json settings = Json::parse(options.json_settings, nullptr, false);
+    if (settings.is_discarded())
+        return fail(Errc::bad_argument, "the settings for the manifest are no JSON");
+    Json files = {
+        {"scene", text_of(names.scene)}, {"exr", text_of(names.exr)}, {"png", text_of(names.png)}};
+    if (!names.binary) files["buffer"] = text_of(names.bin);
+    const bool unlit = options.form == LitForm::unlit;
+    Json json = {{"generator", "Aglow"},
+                 {"quantity", "irradiance"},
+                 {"units", "lux"},
+                 {"color_space", "linear Rec. 709"},
+                 {"form", unlit ? "unlit" : "lightmap"},
+                 {"encoding", {{"exr", "linear, 32-bit float, lux"}}}};
+    if (unlit) {
+        json["encoding"]["png"] = "8-bit sRGB, 2^exposure_ev * luminance / reference_white";
+        json["exposure_ev"] = options.exposure_ev;
+        json["reference_white"] = kReferenceWhite;
+    } else {
+        json["encoding"]["png"] = "8-bit sRGB, lux = intensity * linear texel";
+        json["intensity"] = coded.intensity;
+        json["clipped_share"] = coded.clipped_share;
+    }
+    json["texel_size_m"] = atlas.texel_size;
+    json["atlas"] = {atlas.width, atlas.height};
+    json["texels"] = texels.element_count();
+    json["charts"] = atlas.chart_count;
+    json["files"] = std::move(files);
+    json["method"] = options.method;
+    json["settings"] = settings;
+    return json;
+}
+
+std::span<const uint8_t> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+/// The scene's own files: first the scene, then what it names.
+Status add_scene(encode::LitScene& lit, const Names& names, encode::OutputSet& outputs) {
+    if (names.binary) {
+        encode::embed_images(lit.document);
+        const auto binary = encode::merge_buffers(lit.document);
+        AG_TRY(const auto glb, encode::to_glb_bytes(lit.json(), binary));
+        return outputs.add(names.scene, glb);
+    }
+    const auto copies = encode::relocate_images(lit.document, names.scene);
+    const auto binary = encode::merge_buffers(lit.document);
+    if (!binary.empty()) lit.json()["buffers"][0]["uri"] = encode::to_uri(text_of(names.bin));
+    AG_CHECK(outputs.add(names.scene, bytes_of(encode::to_text(lit.json(), 2) + "\n")));
+    if (!binary.empty()) AG_CHECK(outputs.add(names.bin, binary));
+    for (const auto& copy : copies) AG_CHECK(outputs.add(copy.target, copy.bytes));
+    return {};
+}
+
+/// A neighbour of the input must not be lost to an output that happens to share its name.
+Status protect_input(const encode::LitScene& lit, const Names& names) {
+    const auto& source = lit.scene.source;
+    if (!source || source->folder.empty() || text_of(names.scene) == lit.scene.name) return {};
+    for (const char* key : {"buffers", "images"}) {
+        for (const Json& element : encode::list_of(lit.document.json, key)) {
+            const auto uri = element.find("uri");
+            if (uri == element.end()) continue;
+            const fs::path named = encode::path_of_uri(uri->get<std::string>());
+            if (named.empty()) continue;
+            for (const fs::path& output : {names.bin, names.exr, names.png, names.manifest}) {
+                std::error_code ignored;
+                if (fs::equivalent(source->folder / named, output, ignored))
+                    return fail(Errc::bad_argument,
+                                "it belongs to the input; choose another output name",
+                                output.string());
+            }
+        }
+    }
+    return {};
+}
+
+struct Light {
+    encode::CodedLight coded;  ///< of the lightmap, whatever the form
+    std::vector<uint8_t> png;  ///< what the scene's texture shows
+};
+
+Result<Light> code(const Scene& scene, const Surfaces& surfaces, const Texels& texels,
+                   const Lightmap& lightmap, const LitOptions& options) {
+    Light light;
+    if (options.form == LitForm::unlit) {
+        AG_TRY(light.png,
+               encode::unlit_picture(scene, surfaces, texels, lightmap, options.exposure_ev));
+    } else {
+        AG_TRY(light.coded, encode::code_light(lightmap));
+        light.png = light.coded.png;
+    }
+    return light;
+}
+
+Result<LitFiles> write(const Scene& scene, const Surfaces& surfaces, const Atlas& atlas,
+                       const Texels& texels, const Lightmap& lightmap, const fs::path& path,
+                       const LitOptions& options) {
+    AG_TRY(const Names names, names_of(path, options.form));
+    AG_TRY(auto lit, encode::open_lit_scene(scene, atlas));
+    AG_CHECK(protect_input(lit, names));
+    AG_TRY(const Light light, code(scene, surfaces, texels, lightmap, options));
+    AG_TRY(const Json about, manifest(names, atlas, texels, light.coded, options));
+
+    encode::add_light_texture(lit, light.png,
+                              names.binary ? "" : encode::to_uri(text_of(names.png)));
+    if (options.form == LitForm::unlit) {
+        encode::apply_unlit_form(lit);
+    } else {
+        encode::apply_lightmap_form(lit,
+                                    {light.coded.intensity, text_of(names.exr), atlas.texel_size});
+    }
+    encode::OutputSet outputs;
+    AG_CHECK(add_scene(lit, names, outputs));
+    AG_CHECK(outputs.add(names.exr,
+                         [&](const fs::path& to) { return write_image(lightmap.irradiance, to); }));
+    AG_CHECK(outputs.add(names.png, light.png));
+    AG_CHECK(outputs.add(names.manifest, bytes_of(encode::to_text(about, 2) + "\n")));
+    AG_TRY(auto written, outputs.commit());
+    return LitFiles{std::move(written), light.coded.clipped_share, light.coded.intensity};
+}
+
+}  // namespace
+
+Result<LitFiles> write_lit_gltf(const Scene& scene, const Surfaces& surfaces, const Atlas& atlas,
+                                const Texels& texels, const Lightmap& lightmap,
+                                const fs::path& path, const LitOptions& options) try {
+    AG_ASSERT(lightmap.irradiance.width == atlas.width, "the lightmap is the atlas's");
+    AG_ASSERT(lightmap.irradiance.height == atlas.height, "the lightmap is the atlas's");
+    return write(scene, surfaces, atlas, texels, lightmap, path, options);
+} catch (const std::bad_alloc&) {
+    return fail(Errc::out_of_memory, "no memory to write the lit scene", path.string());
+} catch (const nlohmann::json::exception& error) {
+    return fail(Errc::malformed, fmt::format("the source's JSON is not glTF: {}", error.what()),
+                scene.name);
+} catch (const fs::filesystem_error& error) {
+    return fail(Errc::unreadable, error.what(), path.string());
+} catch (const std::exception& error) {
+    return fail(Errc::malformed, fmt::format("the source cannot be edited: {}", error.what()),
+                scene.name);
+}
+
+}  // namespace aglow
