@@ -8,7 +8,8 @@
 
 namespace aglow {
 
-/// How far A is from B, over the pixels (texels) compared and all three channels.
+/// How far A is from B, over the pixels (texels) compared and all three channels. Where B is zero
+/// everywhere, a relative figure is 0 if A equals B there, else infinite.
 struct Difference {
     double rmse = 0;             ///< root of the mean squared difference, in the unit of the values
     double relative_rmse = 0;    ///< rmse / root mean square of B
@@ -21,6 +22,7 @@ struct Difference {
 
 /// Shapes  both of the same size; `mask` empty or [height * width], nonzero where to compare.
 /// Errors  bad_argument (sizes differ; says both).
+/// Cost    O(pixels), sums in double.
 Result<Difference> difference(const Image& a, const Image& b, std::span<const uint8_t> mask = {});
 
 }  // namespace aglow
