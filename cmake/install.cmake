@@ -20,6 +20,8 @@ foreach(solver gather path)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aglow/transport/${solver})
 endforeach()
 
+install(FILES ${PROJECT_SOURCE_DIR}/aglow/aglow.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aglow)
+
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/aglowConfig.cmake.in
     ${PROJECT_BINARY_DIR}/aglowConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/aglowConfigVersion.cmake
