@@ -25,13 +25,6 @@ bool RayScene::occluded(const Ray& ray) const {
     return cpu_->occluded(ray.origin, ray.direction, ray.far);
 }
 
-vec3 offset_origin(vec3 p, vec3 n, float magnitude) {
-    // A point made of three weighted corners errs by up to 4 half units in the last place, 2^-22 of
-    // the largest coordinate, and so does the plane that a ray test sees; 2^-18 is 8 times both.
-    constexpr float kRoundingBound = 0x1p-18f;
-    return p + n * (kRoundingBound * magnitude);
-}
-
 float coordinate_magnitude(const Surfaces& surfaces, uint32_t triangle) {
     float magnitude = 0;
     for (int i = 0; i < 3; ++i) {

@@ -11,7 +11,8 @@
 namespace aglow {
 namespace {
 
-constexpr uint32_t kRays = 8;
+constexpr uint32_t kPointRays = 8;   // decide on one point of a texel that has others
+constexpr uint32_t kTexelRays = 64;  // from each point decide on a whole texel
 
 /// Does ray `i` of the point meet a back that only the inside of something shows?
 bool meets_back(const Surfaces& surfaces, const Scene& scene, const RayScene& rays, SurfacePoint at,
@@ -29,35 +30,58 @@ bool meets_back(const Surfaces& surfaces, const Scene& scene, const RayScene& ra
 
 enum class Sight : uint8_t { open, mixed, hidden };
 
-/// Marks the hidden points of one element.
-Sight look(const Surfaces& surfaces, const Scene& scene, const RayScene& rays, const Texels& texels,
-           size_t element, std::vector<uint8_t>& hidden) {
-    const uint32_t begin = texels.first_sample[element], end = texels.first_sample[element + 1];
-    bool suspect = false;
-    for (uint32_t s = begin; s < end && !suspect; ++s)
-        suspect = meets_back(surfaces, scene, rays, texels.samples[s], 0);
-    if (!suspect) return Sight::open;
-    uint32_t hidden_count = 0;
-    for (uint32_t s = begin; s < end; ++s) {
-        uint32_t i = 0;
-        while (i < kRays && meets_back(surfaces, scene, rays, texels.samples[s], i)) ++i;
-        hidden[s] = i == kRays;
-        hidden_count += hidden[s];
-    }
-    return hidden_count == 0             ? Sight::open
-           : hidden_count == end - begin ? Sight::hidden
-                                         : Sight::mixed;
-}
+/// Looks at the texels of one scene.
+struct Watch {
+    const Surfaces& surfaces;
+    const Scene& scene;
+    const RayScene& rays;
+    const Texels& texels;
 
-bool touches_open(const Texels& texels, const std::vector<Sight>& sights, uint32_t pixel) {
-    const int x = static_cast<int>(pixel) % texels.width,
-              y = static_cast<int>(pixel) / texels.width;
-    for (int ny = std::max(0, y - 1); ny <= std::min(texels.height - 1, y + 1); ++ny)
-        for (int nx = std::max(0, x - 1); nx <= std::min(texels.width - 1, x + 1); ++nx) {
-            const uint32_t e = texels.element_at[static_cast<size_t>(ny * texels.width + nx)];
-            if (e != kNoElement && sights[e] != Sight::hidden) return true;
-        }
-    return false;
+    bool hidden(uint32_t sample, uint32_t ray_count) const {
+        uint32_t i = 0;
+        while (i < ray_count && meets_back(surfaces, scene, rays, texels.samples[sample], i)) ++i;
+        return i == ray_count;
+    }
+
+    /// Sight of one element; marks its hidden points.
+    Sight look(size_t element, std::vector<uint8_t>& hidden_points) const {
+        const uint32_t begin = texels.first_sample[element], end = texels.first_sample[element + 1];
+        const auto any = [&](uint32_t ray_count) {
+            for (uint32_t s = begin; s < end; ++s)
+                if (hidden(s, ray_count)) return true;
+            return false;
+        };
+        if (!any(1)) return Sight::open;
+        uint32_t hidden_count = 0;
+        for (uint32_t s = begin; s < end; ++s)
+            hidden_count += hidden_points[s] = hidden(s, kPointRays);
+        if (hidden_count == 0) return Sight::open;
+        if (hidden_count < end - begin) return Sight::mixed;
+        for (uint32_t s = begin; s < end; ++s)
+            if (!hidden(s, kTexelRays)) return Sight::open;
+        return Sight::hidden;
+    }
+};
+
+/// Hidden elements that hang together, pixel by pixel, with elements that are not.
+std::vector<uint8_t> attached(const Texels& texels, const std::vector<Sight>& sights) {
+    std::vector<uint8_t> reached(sights.size(), 0);
+    std::vector<uint32_t> front;
+    for (uint32_t e = 0; e < sights.size(); ++e)
+        if (sights[e] != Sight::hidden) front.push_back(e);
+    while (!front.empty()) {
+        const auto pixel = static_cast<int>(texels.pixel_of[front.back()]);
+        front.pop_back();
+        const int x = pixel % texels.width, y = pixel / texels.width;
+        for (int ny = std::max(0, y - 1); ny <= std::min(texels.height - 1, y + 1); ++ny)
+            for (int nx = std::max(0, x - 1); nx <= std::min(texels.width - 1, x + 1); ++nx) {
+                const uint32_t e = texels.element_at[static_cast<size_t>(ny * texels.width + nx)];
+                if (e == kNoElement || reached[e] || sights[e] != Sight::hidden) continue;
+                reached[e] = 1;
+                front.push_back(e);
+            }
+    }
+    return reached;
 }
 
 }  // namespace
@@ -65,13 +89,14 @@ bool touches_open(const Texels& texels, const std::vector<Sight>& sights, uint32
 void drop_hidden_points(const Surfaces& surfaces, const Scene& scene, const RayScene& rays,
                         Texels& texels) {
     std::vector<uint8_t> hidden(texels.samples.size(), 0);
+    const Watch watch{surfaces, scene, rays, texels};
     std::vector<Sight> sights(texels.element_count(), Sight::open);
     parallel_for(texels.element_count(), 64, [&](size_t begin, size_t end) {
-        for (size_t e = begin; e < end; ++e)
-            sights[e] = look(surfaces, scene, rays, texels, e, hidden);
+        for (size_t e = begin; e < end; ++e) sights[e] = watch.look(e, hidden);
     });
     if (std::all_of(sights.begin(), sights.end(), [](Sight s) { return s == Sight::open; })) return;
 
+    const std::vector<uint8_t> given_up = attached(texels, sights);
     Texels kept;
     kept.width = texels.width;
     kept.height = texels.height;
@@ -79,7 +104,7 @@ void drop_hidden_points(const Surfaces& surfaces, const Scene& scene, const RayS
     kept.first_sample.push_back(0);
     for (size_t e = 0; e < texels.element_count(); ++e) {
         const uint32_t pixel = texels.pixel_of[e];
-        if (sights[e] == Sight::hidden && touches_open(texels, sights, pixel)) continue;
+        if (given_up[e]) continue;
         for (uint32_t s = texels.first_sample[e]; s < texels.first_sample[e + 1]; ++s)
             if (sights[e] != Sight::mixed || !hidden[s]) kept.samples.push_back(texels.samples[s]);
         kept.element_at[pixel] = static_cast<uint32_t>(kept.pixel_of.size());

@@ -159,15 +159,15 @@ LightSample Lights::emitter(vec3 p, vec3 n, vec3 u) const {
     const vec3 emission = light.even ? light.emission : emitted({light.triangle, at}, front);
     if (!(luminance(emission) > 0)) return {};
 
-    // The shadow ray ends just above the light, so that it meets neither the light nor a twin of
-    // it.
-    const vec3 target =
-        offset_origin(on_light, front ? light.normal : -light.normal, light.magnitude);
-    const vec3 to_light = target - p;
+    const vec3 to_light = on_light - p;
     const float distance = length(to_light);
     if (!(distance > 0)) return {};
+    // The shadow ray ends a clearance above the light, so that it meets neither it nor a twin of
+    // it.
+    const float height = shared::abs(dot(light.normal, to_light));
+    const float cut = shared::min(1.0f, clearance(light.magnitude) / height);
     const float pdf = sample.pdf * choice.probability;
-    return {to_light / distance, distance, emission / pdf, pdf};
+    return {to_light / distance, distance * (1 - cut), emission / pdf, pdf};
 }
 
 vec3 Lights::emitted(const SurfacePoint& at, bool front) const {

@@ -11,7 +11,7 @@ namespace aglow {
 /// Unoccluded light that reaches a point from one sampled direction.
 struct LightSample {
     vec3 direction = {0, 0, 0};  ///< unit, from the point towards the light
-    float distance = 0;          ///< m to the sampled point on the light; kInfinity for sky and sun
+    float distance = 0;          ///< m that have to be free; kInfinity for sky and sun
     /// Irradiance on a plane that faces `direction`, lux, divided by the probability of the
     /// sample: multiply by max(0, n . direction) and by visibility. Zero where nothing was found.
     vec3 normal_irradiance = {0, 0, 0};
