@@ -21,8 +21,8 @@ std::optional<Hit> RayScene::intersect(const Ray& ray) const {
     return Hit{hit.at, hit.distance, hit.front};
 }
 
-bool RayScene::occluded(const Ray& ray) const {
-    return cpu_->occluded(ray.origin, ray.direction, ray.far);
+float RayScene::visibility(const Ray& ray) const {
+    return cpu_->visibility(ray.origin, ray.direction, ray.far);
 }
 
 float coordinate_magnitude(const Surfaces& surfaces, uint32_t triangle) {

@@ -26,8 +26,9 @@ struct Hit {
 };
 
 /// What a ray hits: all triangles of posed surfaces. Surfaces block from both sides. Alpha masks
-/// block where their texture says so; blended surfaces let a ray pass with probability 1 - alpha,
-/// decided by a hash of the ray, so that a repeated ray gets the same answer.
+/// block where their texture says so. A blended surface lets the share 1 - alpha of light pass, and
+/// is hit with probability alpha, decided by a hash of the ray, so that a repeated ray gets the
+/// same answer.
 /// Thread safety  all const members may be called from any thread.
 class RayScene {
 public:
@@ -39,7 +40,9 @@ public:
     ~RayScene();
 
     std::optional<Hit> intersect(const Ray& ray) const;
-    bool occluded(const Ray& ray) const;
+    /// Share of light that passes all that stands within (0, ray.far): 0 where something opaque
+    /// does.
+    float visibility(const Ray& ray) const;
 
     const accel::cpu::EmbreeScene& cpu() const { return *cpu_; }  ///< for kernels in cpu/ folders
 

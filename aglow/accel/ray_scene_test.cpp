@@ -59,8 +59,8 @@ TEST_CASE("a ray ends where it is told to") {
     const Scene scene = square(AlphaMode::opaque);
     const Surfaces surfaces = pose(scene);
     const RayScene rays = *RayScene::create(scene, surfaces);
-    CHECK(rays.occluded({{0.5f, 1, 0.5f}, {0, -1, 0}, 1.001f}));
-    CHECK_FALSE(rays.occluded({{0.5f, 1, 0.5f}, {0, -1, 0}, 0.999f}));
+    CHECK(rays.visibility({{0.5f, 1, 0.5f}, {0, -1, 0}, 1.001f}) == 0);
+    CHECK(rays.visibility({{0.5f, 1, 0.5f}, {0, -1, 0}, 0.999f}) == 1);
 }
 
 TEST_CASE("a mask lets rays pass where its texture is transparent and only there") {
@@ -68,13 +68,27 @@ TEST_CASE("a mask lets rays pass where its texture is transparent and only there
     const Surfaces surfaces = pose(scene);
     const RayScene rays = *RayScene::create(scene, surfaces);
     for (float z : {0.1f, 0.5f, 0.9f}) {
-        CHECK(rays.occluded({{0.25f, 1, z}, {0, -1, 0}}));
-        CHECK_FALSE(rays.occluded({{0.75f, 1, z}, {0, -1, 0}}));
+        CHECK(rays.visibility({{0.25f, 1, z}, {0, -1, 0}}) == 0);
+        CHECK(rays.visibility({{0.75f, 1, z}, {0, -1, 0}}) == 1);
         CHECK_FALSE(rays.intersect({{0.75f, 1, z}, {0, -1, 0}}));
     }
 }
 
-TEST_CASE("a blended surface of alpha 0.3 stops three rays in ten, the same ones every time") {
+TEST_CASE("light passes n blended surfaces of alpha 0.3 as 0.7 to the n") {
+    Scene scene = square(AlphaMode::blend);
+    scene.materials[0].base_color.w = 0.3f;
+    for (int n = 1; n <= 3; ++n) {
+        const Surfaces surfaces = pose(scene);
+        const RayScene rays = *RayScene::create(scene, surfaces);
+        CHECK(rays.visibility({{0.3f, 1, 0.4f}, {0, -1, 0}}) == doctest::Approx(std::pow(0.7, n)));
+        Node node;
+        node.mesh = 0;
+        node.translation = {0, -static_cast<float>(n), 0};
+        scene.nodes.push_back(node);
+    }
+}
+
+TEST_CASE("a blended surface of alpha 0.3 is hit by three rays in ten, the same ones every time") {
     Scene scene = square(AlphaMode::blend);
     scene.materials[0].base_color.w = 0.3f;
     const Surfaces surfaces = pose(scene);
@@ -84,8 +98,7 @@ TEST_CASE("a blended surface of alpha 0.3 stops three rays in ten, the same ones
     constexpr int kRays = 20000;
     for (int i = 0; i < kRays; ++i) {
         const Ray ray{{random.uniform(), 1, random.uniform()}, {0, -1, 0}};
-        const bool blocked = rays.occluded(ray);
-        CHECK(blocked == rays.occluded(ray));
+        const bool blocked = rays.intersect(ray).has_value();
         CHECK(blocked == rays.intersect(ray).has_value());
         stopped += blocked;
     }
@@ -115,8 +128,8 @@ TEST_CASE(
                                                   coordinate_magnitude(surfaces, at.triangle));
                 const float slope = random.uniform() * 6.28f;
                 const vec3 grazing{std::cos(slope), std::sin(slope), 0.01f};
-                const bool blocked = rays.occluded({origin, normalize(Frame(n).to_world(grazing))});
-                CHECK_FALSE(blocked);
+                const vec3 direction = normalize(Frame(n).to_world(grazing));
+                CHECK(rays.visibility({origin, direction}) == 1);
             }
         }
 }

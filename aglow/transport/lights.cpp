@@ -156,7 +156,10 @@ LightSample Lights::emitter(vec3 p, vec3 n, vec3 u) const {
     const vec3 on_light = a * (1 - at.x - at.y) + b * at.x + c * at.y;
     const bool front = dot(light.normal, p - on_light) > 0;
     if (light.even && !front) return {};
-    const vec3 emission = light.even ? light.emission : emitted({light.triangle, at}, front);
+    const SurfacePoint on_surface{light.triangle, at};
+    const vec3 emission = light.even ? light.emission
+                                     : emitted(on_surface, front) *
+                                           opacity(data_->scene, data_->surfaces, on_surface);
     if (!(luminance(emission) > 0)) return {};
 
     const vec3 to_light = on_light - p;
@@ -173,10 +176,7 @@ LightSample Lights::emitter(vec3 p, vec3 n, vec3 u) const {
 vec3 Lights::emitted(const SurfacePoint& at, bool front) const {
     const Material* m = data_->material(at.triangle);
     if (!m || m->unlit || (!front && !m->double_sided)) return {0, 0, 0};
-    const vec3 emission = emitted_luminance(data_->scene, data_->surfaces, at);
-    return m->alpha_mode == AlphaMode::opaque
-               ? emission
-               : emission * opacity(data_->scene, data_->surfaces, at);
+    return emitted_luminance(data_->scene, data_->surfaces, at);
 }
 
 float Lights::emitter_pdf(vec3 p, vec3 n, const SurfacePoint& at) const {

@@ -39,7 +39,7 @@ public:
     bool has_emitters() const;
     LightSample emitter(vec3 p, vec3 n, vec3 u) const;
     /// Luminance that leaves a hit emissive surface towards a ray that arrives on its front
-    /// (`front`) or back.
+    /// (`front`) or back. Alpha is not in it: it is the probability of the hit.
     vec3 emitted(const SurfacePoint& at, bool front) const;
     /// 1/sr with which emitter() draws the direction from a receiver at (p, n) to the point `at`; 0
     /// for triangles that do not emit.

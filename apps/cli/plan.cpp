@@ -42,7 +42,7 @@ std::vector<int> chosen_sensors(const Floor& floor, std::span<const Receiver> se
     for (size_t i = 0; i < sensors.size(); ++i) {
         const vec3 p = sensors[i].position;
         const size_t cell = floor.cell(p);
-        const uint8_t indoors = rays.occluded({.origin = p, .direction = {0, 1, 0}}) ? 1 : 0;
+        const uint8_t indoors = rays.visibility({.origin = p, .direction = {0, 1, 0}}) < 1 ? 1 : 0;
         if (chosen[cell] >= 0) {
             const float height = sensors[static_cast<size_t>(chosen[cell])].position.y;
             if (indoors < chosen_is_indoors[cell]) continue;

@@ -25,17 +25,32 @@ float ray_hash(const RTCRayN* rays, unsigned count, unsigned i, uint32_t triangl
     return shared::unit_float(hash);
 }
 
-/// Refuses hits where the surface's alpha lets the ray pass.
-void filter_alpha(const RTCFilterFunctionNArguments* args) {
+/// Calls decide(i, triangle, alpha) for each hit that is up for decision; false refuses the hit.
+template <class Decide>
+void filter(const RTCFilterFunctionNArguments* args, Decide&& decide) {
     const auto& test = *static_cast<const AlphaTest*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         const uint32_t triangle = (*test.triangle_of)[RTCHitN_primID(args->hit, args->N, i)];
         const SurfacePoint at{triangle,
                               {RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)}};
-        const float alpha = opacity(*test.scene, *test.surfaces, at);
-        if (alpha < 1 && ray_hash(args->ray, args->N, i, triangle) >= alpha) args->valid[i] = 0;
+        if (!decide(i, triangle, opacity(*test.scene, *test.surfaces, at))) args->valid[i] = 0;
     }
+}
+
+void filter_hit(const RTCFilterFunctionNArguments* args) {
+    filter(args, [&](unsigned i, uint32_t triangle, float alpha) {
+        return alpha >= 1 || ray_hash(args->ray, args->N, i, triangle) < alpha;
+    });
+}
+
+/// Shadow rays are traced one by one, so the context belongs to the ray.
+void filter_shadow(const RTCFilterFunctionNArguments* args) {
+    auto& shadow = *reinterpret_cast<ShadowContext*>(args->context);
+    filter(args, [&](unsigned, uint32_t, float alpha) {
+        shadow.passing *= 1 - alpha;
+        return !(shadow.passing > 0);
+    });
 }
 
 bool has_alpha(const Scene& scene, const SurfacePart& part) {
@@ -85,8 +100,8 @@ void EmbreeScene::attach(const Surfaces& surfaces, unsigned geometry_id) {
         for (size_t i = 0; i < triangles.size(); ++i) indices[i] = surfaces.triangles[triangles[i]];
         if (geometry_id == kAlpha) {
             rtcSetGeometryUserData(geometry, &alpha_test_);
-            rtcSetGeometryIntersectFilterFunction(geometry, filter_alpha);
-            rtcSetGeometryOccludedFilterFunction(geometry, filter_alpha);
+            rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
+            rtcSetGeometryOccludedFilterFunction(geometry, filter_shadow);
         }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene_, geometry, geometry_id);

@@ -25,6 +25,12 @@ struct SurfaceHit {
     bool front;
 };
 
+/// A shadow ray on its way; the first member is what Embree sees of it.
+struct ShadowContext {
+    RTCIntersectContext embree;
+    float passing = 1;  ///< share of light that the surfaces met so far let pass
+};
+
 /// An Embree scene of two geometries: triangles that always block, and triangles whose alpha
 /// decides. Watertight (RTC_SCENE_FLAG_ROBUST).
 class EmbreeScene {
@@ -52,12 +58,12 @@ public:
         return true;
     }
 
-    bool occluded(vec3 origin, vec3 direction, float far) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
+    float visibility(vec3 origin, vec3 direction, float far) const {
+        ShadowContext context;
+        rtcInitIntersectContext(&context.embree);
         RTCRay ray = make_ray(origin, direction, far);
-        rtcOccluded1(scene_, &context, &ray);
-        return ray.tfar < 0;
+        rtcOccluded1(scene_, &context.embree, &ray);
+        return ray.tfar < 0 ? 0 : context.passing;
     }
 
 private:

@@ -12,6 +12,7 @@ namespace aglow {
 struct GatherOptions {
     int bounces = kConverged;
     int cache_samples = 32;      ///< hemisphere rays per texel for the light between texels
+    int64_t cache_rays = 0;      ///< ... or more, until the whole scene has so many
     int min_samples = 64;        ///< hemisphere rays per receiver in the last gather ...
     int max_samples = 1024;      ///< ... and at most
     float target_error = 0.01f;  ///< stop sampling a receiver at this relative standard error

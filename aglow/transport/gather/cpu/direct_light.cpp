@@ -16,9 +16,8 @@ vec3 if_visible(const World& world, const Vantage& at, const LightSample& light,
                 uint64_t& ray_count) {
     if (!(cosine > 0) || light.normal_irradiance == vec3{0, 0, 0}) return {0, 0, 0};
     ++ray_count;
-    return world.rays.cpu().occluded(at.origin, light.direction, light.distance)
-               ? vec3{0, 0, 0}
-               : light.normal_irradiance * cosine;
+    return light.normal_irradiance *
+           (cosine * world.rays.cpu().visibility(at.origin, light.direction, light.distance));
 }
 
 }  // namespace

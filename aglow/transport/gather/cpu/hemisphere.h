@@ -85,8 +85,8 @@ void follow_backs(const World& world, const TexelMap& map, accel::cpu::SurfaceHi
         visitor.light(delay, weight * (delta_irradiance(world, at, ray_count) +
                                        sampled_irradiance(world, at, u_emitter, u_sky, ray_count)));
         if (max_backs == kUnlimited) {
-            const float survival =
-                shared::min(0.95f, shared::max(weight.x, shared::max(weight.y, weight.z)));
+            // Weights stay at or below 1, so that links pass on no more light than there is.
+            const float survival = shared::max(weight.x, shared::max(weight.y, weight.z));
             if (!(random.uniform() < survival)) return;
             weight *= 1 / survival;
         }

@@ -12,6 +12,14 @@ namespace {
 
 constexpr size_t kGrain = 64;
 
+/// A scene of few texels has few rays to average noise over, and each is cheap.
+int rays_per_texel(const GatherOptions& options, size_t element_count) {
+    constexpr int64_t kMost = 4096;
+    const int64_t share =
+        options.cache_rays / static_cast<int64_t>(std::max(size_t{1}, element_count));
+    return std::max(options.cache_samples, static_cast<int>(std::min(kMost, share)));
+}
+
 /// Receives what the rays of one texel find.
 struct LinkCollector {
     std::span<uint32_t> to;
@@ -162,8 +170,8 @@ Result<Links> trace_links(const World& world, const Texels& texels, const TexelM
                           const GatherOptions& options, const Monitor& monitor) {
     const size_t count = texels.element_count();
     Links links;
-    links.rays_per_texel = options.cache_samples;
-    links.to.assign(count * static_cast<size_t>(options.cache_samples), kNoElement);
+    links.rays_per_texel = rays_per_texel(options, count);
+    links.to.assign(count * static_cast<size_t>(links.rays_per_texel), kNoElement);
     links.direct.resize(count);
     links.reflectance.resize(count);
     std::vector<std::vector<BackLink>> backs((count + kGrain - 1) / kGrain);

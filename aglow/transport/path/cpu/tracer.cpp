@@ -46,29 +46,29 @@ Tracer::Vertex Tracer::vertex_at(const Hit& hit) const {
     return {offset_origin(position(world_.surfaces, hit.at), n, magnitude), n, n};
 }
 
-vec3 Tracer::unless_occluded(const Vertex& vertex, const LightSample& light, int& ray_count) const {
+vec3 Tracer::unless_blocked(const Vertex& vertex, const LightSample& light, int& ray_count) const {
     const float cosine = dot(vertex.normal, light.direction);
     if (!(cosine > 0) || !(dot(vertex.geometric_normal, light.direction) > 0)) return {0, 0, 0};
     if (!(largest(light.normal_irradiance) > 0)) return {0, 0, 0};
     ++ray_count;
     const Ray shadow{vertex.origin, light.direction, light.distance * (1 - kShadowSlack)};
-    return world_.rays.occluded(shadow) ? vec3{0, 0, 0} : light.normal_irradiance * cosine;
+    return light.normal_irradiance * (cosine * world_.rays.visibility(shadow));
 }
 
 vec3 Tracer::sampled_light(const Vertex& vertex, Pcg32& random, int& ray_count) const {
     const Lights& lights = world_.lights;
     vec3 sum = {0, 0, 0};
     for (size_t i = 0; i < lights.delta_count(); ++i)
-        sum += unless_occluded(vertex, lights.delta(i, vertex.origin), ray_count);
+        sum += unless_blocked(vertex, lights.delta(i, vertex.origin), ray_count);
     if (lights.has_emitters())
-        sum += unless_occluded(
+        sum += unless_blocked(
             vertex, lights.emitter(vertex.origin, vertex.normal, uniform3(random)), ray_count);
     if (lights.samples_sky()) {
         const LightSample light = lights.sky(uniform2(random));
         const float cosine_pdf = std::max(0.0f, dot(vertex.normal, light.direction)) / kPi;
         if (light.pdf > 0)
             sum +=
-                unless_occluded(vertex, light, ray_count) * (light.pdf / (light.pdf + cosine_pdf));
+                unless_blocked(vertex, light, ray_count) * (light.pdf / (light.pdf + cosine_pdf));
     }
     return sum;
 }
@@ -125,9 +125,7 @@ vec3 Tracer::luminance_along(const Ray& ray, Pcg32& random) const {
         receiver.geometric_normal = -receiver.geometric_normal;
     }
     const vec3 reflectance = diffuse_reflectance(world_.scene, world_.surfaces, hit->at);
-    // A surface with alpha emits its share, and the ray already met it with that probability.
-    const float alpha = opacity(world_.scene, world_.surfaces, hit->at);
-    const vec3 emitted = world_.lights.emitted(hit->at, hit->front) / std::max(alpha, 1e-6f);
+    const vec3 emitted = world_.lights.emitted(hit->at, hit->front);
     if (!(largest(reflectance) > 0)) return emitted;
     return emitted + reflectance * trace(receiver, random).irradiance.total() * (1 / kPi);
 }

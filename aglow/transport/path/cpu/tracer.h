@@ -37,7 +37,7 @@ private:
     Vertex vertex_at(const Hit& hit) const;
     /// Irradiance from lights that are found by sampling them.
     vec3 sampled_light(const Vertex& vertex, Pcg32& random, int& ray_count) const;
-    vec3 unless_occluded(const Vertex& vertex, const LightSample& light, int& ray_count) const;
+    vec3 unless_blocked(const Vertex& vertex, const LightSample& light, int& ray_count) const;
     /// Irradiance from the sky that a cosine-distributed ray stands for which left the scene.
     vec3 escaped_light(const Vertex& vertex, vec3 direction) const;
 
