@@ -30,7 +30,7 @@ struct LitOptions {
 struct LitFiles {
     std::vector<std::filesystem::path> outputs;  ///< all files written, the scene first
     double clipped_share = 0;  ///< of the covered texels whose value exceeds what the PNG can hold
-    double intensity = 1;      ///< lux that the PNG's white stands for
+    double intensity = 1;      ///< lux that the PNG's white stands for (lightmap form)
 };
 
 /// Writes the lit scene: OUT.glb (or OUT.gltf with OUT.bin), OUT.exr (full range irradiance, lux),

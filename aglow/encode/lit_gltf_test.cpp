@@ -153,6 +153,45 @@ TEST_CASE("an EXR outside the folder is refused") {
     }
 }
 
+TEST_CASE("a broken lightmap extension is an error that names its element, never a crash") {
+    const TemporaryFolder folder;
+    FakeBake bake(shared_meshes());
+    written(bake, folder.path / "lit.gltf");
+    fs::remove(folder.path / "lit.exr");
+    const auto good = json_of(folder.path / "lit.gltf");
+    size_t node = 0;
+    while (!good["nodes"][node].contains("mesh")) ++node;
+    const auto primitive =
+        good["meshes"][good["nodes"][node]["mesh"].get<size_t>()]["primitives"][0];
+    const std::string moz = "/materials/" + std::to_string(primitive["material"].get<int>()) +
+                            "/extensions/MOZ_lightmap";
+    const std::string mx = "/nodes/" + std::to_string(node) + "/extensions/MX_lightmap";
+    const std::vector<std::pair<std::string, nlohmann::json>> changes = {
+        {moz + "/index", 99},
+        {moz + "/index", "one"},
+        {moz + "/texCoord", -1},
+        {moz + "/index", -1},
+        {moz + "/intensity", "bright"},
+        {mx + "/scale", {1}},
+        {mx + "/scale", "big"},
+        {mx + "/offset", {"a", nullptr}},
+        {mx + "/lightMapTexture", 3},
+        {mx, {{"scale", {1, 1}}}},
+        {mx + "/lightMapTexture/index", 4},
+        {moz, 7}};
+    for (const auto& [pointer, value] : changes) {
+        CAPTURE(pointer);
+        auto json = good;
+        json[nlohmann::json::json_pointer(pointer)] = value;
+        REQUIRE(write_file(folder.path / "lit.gltf", json.dump()));
+        Scene read = load(folder.path / "lit.gltf");
+        const auto lit = read_lit_gltf(read, folder.path / "lit.gltf");
+        REQUIRE(!lit);
+        CHECK((lit.error().code == Errc::malformed || lit.error().code == Errc::unsupported));
+        CHECK(!lit.error().message.empty());
+    }
+}
+
 TEST_CASE("baking a lit file again replaces its light and adds nothing") {
     const TemporaryFolder folder;
     FakeBake first(shared_meshes());

@@ -11,7 +11,8 @@ namespace aglow {
 inline constexpr uint32_t kNoElement = 0xffffffffu;
 
 /// The covered texels of an atlas: the elements that light is solved for. A texel is covered if
-/// any triangle of positive area overlaps its square, by however little. Its sample points lie
+/// any triangle of positive area overlaps its square, by however little (1e-5 of the square at
+/// least, unless the triangle itself is tiny: that much is rounding). Its sample points lie
 /// inside the covered part, spread in proportion to area, so that their mean is the texel's mean.
 struct Texels {
     int width = 0, height = 0;

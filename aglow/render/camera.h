@@ -23,7 +23,7 @@ struct View {
 /// Picks a camera: a number, a name (of a camera or of its node), or "auto": the first camera that
 /// stands in the active scene, else one placed so that the scene fills the view: for an object,
 /// from outside at a three-quarter angle; for a closed room, from inside one of its corners at
-/// 60 % of its height.
+/// 60 % of its height; for a room with one side open, from outside through that.
 ///
 /// An image wider than the camera's aspect keeps its vertical field of view, a narrower one its
 /// horizontal one, so that all the camera frames is seen. Scale and mirroring of the camera's

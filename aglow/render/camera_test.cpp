@@ -201,6 +201,20 @@ TEST_CASE("a closed room is seen from inside, looking across") {
     }
 }
 
+TEST_CASE("a room with one side open is seen through it, whole") {
+    const vec3 size = {3, 3, 4};
+    Primitive room = box(size, Facing::inwards);
+    room.triangles.erase(room.triangles.begin() + 6, room.triangles.begin() + 8);  // z = 4
+    const View view = view_of(scene_of(room), "auto", 160, 120).value();
+    const Ray middle = view.ray(80, 60);
+    CHECK(middle.direction.z < -0.999f);
+    CHECK(middle.origin.z > 4);
+    for (int i = 0; i < 8; ++i) {
+        const vec2 p = project(view, size * vec3{float(i & 1), float(i >> 1 & 1), float(i >> 2)});
+        CHECK(std::min({p.x, 160 - p.x, p.y, 120 - p.y}) > 0);
+    }
+}
+
 TEST_CASE("a scene without triangles still has a view") {
     Scene empty;
     const View view = view_of(empty, "auto", 16, 16).value();

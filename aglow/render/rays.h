@@ -10,7 +10,7 @@
 namespace aglow {
 
 struct RaysOptions {
-    int samples = 16;  ///< rays per pixel, stratified
+    int samples = 16;  ///< rays per pixel, evenly spread over the filter
     uint64_t seed = 0;
 };
 

@@ -12,7 +12,8 @@ constexpr float kMiddleGrey = 0.18f;
 constexpr float kShoulder = 0.5f;     // display-linear value where compression starts
 constexpr float kFade = 0.1f;         // how fast a compressed colour fades to white
 constexpr float kDarkest = 1e-3f;     // of the bright part, see automatic_exposure()
-constexpr float kBrightest = 4.0f;    // of white, see automatic_exposure()
+constexpr float kLeastBright = 0.5f;  // of white, see automatic_exposure()
+constexpr float kMostBright = 4.0f;   // of white, see automatic_exposure()
 constexpr double kBrightPart = 0.95;  // percentile that stands for the bright part
 
 /// The luminances above zero.
@@ -54,8 +55,9 @@ float automatic_exposure(const Image& image) {
     for (float y : values) log_sum += std::log2(std::max(y, kDarkest * bright));
     const double average = log_sum / static_cast<double>(values.size());
     const double to_grey = std::log2(double{kMiddleGrey}) - average;
-    const double bound = std::log2(double{kBrightest}) - std::log2(double{bright});
-    return static_cast<float>(std::min(to_grey, bound));
+    const double to_white = -std::log2(double{bright});
+    return static_cast<float>(std::clamp(to_grey, to_white + std::log2(double{kLeastBright}),
+                                         to_white + std::log2(double{kMostBright})));
 }
 
 Image tone_map(const Image& image, float exposure_ev) {

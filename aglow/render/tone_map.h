@@ -5,10 +5,10 @@
 namespace aglow {
 
 /// Exposure that maps the picture's log-average luminance to middle grey (18 %), in EV (a factor
-/// of 2^EV on luminance in cd/m^2). Pixels without light are left out; pixels that are much
-/// darker than the bright part (the 95th percentile) count as 1/1000 of it, so that a black
-/// background does not overexpose what stands before it; and the 95th percentile itself is kept
-/// at or below 4 times white. 0 for a picture without light.
+/// of 2^EV on luminance in cd/m^2), as far as that leaves the bright part of the picture (the 95th
+/// percentile) between 0.5 and 4 times white: a white room stays white, and a dark background does
+/// not overexpose what stands before it. Pixels without light are left out; those darker than
+/// 1/1000 of the bright part count as that. 0 for a picture without light.
 float automatic_exposure(const Image& luminance);
 
 /// Luminance in cd/m^2 to display-linear 0..1: exposure, then a filmic shoulder that keeps hue.

@@ -126,6 +126,25 @@ TEST_CASE("a few bytes cannot ask for gigabytes") {
     REQUIRE_FALSE(gaps.has_value());
     CHECK(gaps.error().code == Errc::out_of_memory);
 
+    // Flat shading copies every morph target to the corners of every triangle.
+    std::string targets;
+    for (int i = 0; i < 2000; ++i) targets += std::string(i > 0 ? "," : "") + R"({"POSITION": 0})";
+    const std::string mesh = R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0},
+        "indices": 1, "targets": [)" +
+                             targets + "]}]}]";
+    Bytes bytes = bytes_of(std::vector<float>(9, 1));
+    bytes.resize(36 + 2 * 300000);
+    const auto copies = load(glb(
+        document(
+            R"("buffers": [{"byteLength": 600036}], "bufferViews": [{"buffer": 0, "byteLength": 36},
+           {"buffer": 0, "byteOffset": 36, "byteLength": 600000}],
+           "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3},
+           {"bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": 300000}], )" +
+            mesh),
+        bytes));
+    REQUIRE_FALSE(copies.has_value());
+    CHECK(copies.error().code == Errc::out_of_memory);
+
     const Bytes instances = triangle_file(
         R"(, "nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing":
                {"attributes": {"TRANSLATION": 0}}}}])");

@@ -110,10 +110,10 @@ void move(const Scene& scene, double time, std::vector<LocalPose>& poses) {
 }
 
 /// A matrix in double: products along deep trees keep the precision of their factors.
-using mat4d = std::array<double, 16>;
+using Matrix = std::array<double, 16>;
 
-mat4d operator*(const mat4d& a, const mat4d& b) {
-    mat4d product{};
+Matrix operator*(const Matrix& a, const Matrix& b) {
+    Matrix product{};
     for (size_t column = 0; column < 4; ++column)
         for (size_t row = 0; row < 4; ++row)
             for (size_t k = 0; k < 4; ++k)
@@ -121,10 +121,10 @@ mat4d operator*(const mat4d& a, const mat4d& b) {
     return product;
 }
 
-mat4d local_matrix(const Node& node, const LocalPose& pose) {
+Matrix local_matrix(const Node& node, const LocalPose& pose) {
     const mat4 local =
         node.has_matrix ? node.matrix : compose(pose.translation, pose.rotation, pose.scale);
-    mat4d wide;
+    Matrix wide;
     std::copy(local.m.begin(), local.m.end(), wide.begin());
     return wide;
 }
@@ -142,12 +142,12 @@ std::vector<mat4> world_transforms(const Scene& scene, double time) {
     std::vector<size_t> open;
     for (size_t i = scene.nodes.size(); i-- > 0;)
         if (scene.nodes[i].parent < 0) open.push_back(i);
-    std::vector<mat4d> world(scene.nodes.size());
+    std::vector<Matrix> world(scene.nodes.size());
     while (!open.empty()) {
         const size_t i = open.back();
         open.pop_back();
         const Node& node = scene.nodes[i];
-        const mat4d local = local_matrix(node, poses[i]);
+        const Matrix local = local_matrix(node, poses[i]);
         world[i] = node.parent < 0 ? local : world[static_cast<size_t>(node.parent)] * local;
         for (const int child : node.children) open.push_back(static_cast<size_t>(child));
     }

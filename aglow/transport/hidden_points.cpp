@@ -43,6 +43,30 @@ struct Watch {
         return i == ray_count;
     }
 
+    /// Does nothing stand between two points of a texel, seen from a quarter of their distance
+    /// above the surface?
+    bool see_each_other(uint32_t a, uint32_t b) const {
+        const SurfacePoint from = texels.samples[a], to = texels.samples[b];
+        const vec3 p = position(surfaces, from), q = position(surfaces, to);
+        const float lift = length(q - p) / 4;
+        const vec3 origin = p + geometric_normal(surfaces, from.triangle) * lift;
+        const vec3 line = q + geometric_normal(surfaces, to.triangle) * lift - origin;
+        const float distance = length(line);
+        return !(distance > 0) || rays.visibility({origin, line / distance, distance}) > 0;
+    }
+
+    /// A wall through a texel puts its points on two sides: marks those of the lesser side.
+    Sight leave_far_side(uint32_t begin, uint32_t end, std::vector<uint8_t>& hidden_points) const {
+        const auto first = static_cast<uint32_t>(
+            std::find(hidden_points.begin() + begin, hidden_points.begin() + end, 0) -
+            hidden_points.begin());
+        std::vector<uint32_t> near, far;
+        for (uint32_t s = first; s < end; ++s)
+            if (!hidden_points[s]) (see_each_other(first, s) ? near : far).push_back(s);
+        for (const uint32_t s : far.size() > near.size() ? near : far) hidden_points[s] = 1;
+        return far.empty() ? Sight::open : Sight::mixed;
+    }
+
     /// Sight of one element; marks its hidden points.
     Sight look(size_t element, std::vector<uint8_t>& hidden_points) const {
         const uint32_t begin = texels.first_sample[element], end = texels.first_sample[element + 1];
@@ -51,12 +75,14 @@ struct Watch {
                 if (hidden(s, ray_count)) return true;
             return false;
         };
-        if (!any(1)) return Sight::open;
+        if (!any(1)) return leave_far_side(begin, end, hidden_points);
         uint32_t hidden_count = 0;
         for (uint32_t s = begin; s < end; ++s)
             hidden_count += hidden_points[s] = hidden(s, kPointRays);
-        if (hidden_count == 0) return Sight::open;
-        if (hidden_count < end - begin) return Sight::mixed;
+        if (hidden_count < end - begin) {
+            const Sight sight = leave_far_side(begin, end, hidden_points);
+            return hidden_count > 0 ? Sight::mixed : sight;
+        }
         for (uint32_t s = begin; s < end; ++s)
             if (!hidden(s, kTexelRays)) return Sight::open;
         return Sight::hidden;

@@ -29,7 +29,7 @@ Interrupt::Interrupt() {
 
 Interrupt::~Interrupt() {
     ended_ = true;
-    pthread_kill(waiter_.native_handle(), SIGTERM);  // wakes sigwait, which reads `ended_`
+    pthread_kill(waiter_.native_handle(), SIGINT);  // wakes sigwait, which reads `ended_`
     waiter_.join();
 }
 

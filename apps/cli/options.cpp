@@ -26,7 +26,8 @@ std::string long_name(const Row& row) {
 
 void declare(CLI::App& app, const Row& row, Assigned& assigned) {
     if (row.value.kind == Value::Kind::flag) {
-        app.add_flag_callback(row.name, [&] { assigned.emplace_back(&row, ""); });
+        app.add_flag_callback(row.name, [&] { assigned.emplace_back(&row, ""); })
+            ->disable_flag_override();
         return;
     }
     CLI::Option* option = app.add_option(row.name, [&](const CLI::results_t& texts) {
@@ -54,7 +55,8 @@ Result<Assigned> split(const Table& table, const std::vector<std::string>& argum
                                 extras.front().starts_with("-") ? "is not an option of this command"
                                                                 : "is one argument too many"));
     } catch (const CLI::ArgumentMismatch& error) {
-        return fail(Errc::bad_argument, std::string(error.what()) + " (each option once)");
+        return fail(Errc::bad_argument,
+                    std::string(error.what()) + "; give an option once, a flag no value");
     } catch (const CLI::Error& error) {
         return fail(Errc::bad_argument, error.what());
     }

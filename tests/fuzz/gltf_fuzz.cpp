@@ -76,6 +76,7 @@ void check(const Scene& scene) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it by this name.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto scene = load_gltf(std::as_bytes(std::span(data, size)), "fuzz.glb", {});
     if (scene) check(*scene);

@@ -98,7 +98,7 @@ Experiment square_pair(std::string name, double factor, const char* source, vec3
                  .name = std::move(name),
                  .scene = {},
                  .bakes = true,
-                 .resolution = 64};
+                 .resolution = 48};
     const int receiver =
         add_rectangle(e.scene, add_grey(e.scene, 0), {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
     add_emitter(e.scene, corner, u, v);

@@ -44,6 +44,19 @@ Experiment behind_an_emitter() {
     return e;
 }
 
+/// A convex body cannot light itself: neither over an edge nor along its own flat faces.
+Experiment on_a_convex_emitter() {
+    Experiment e{.group = "darkness", .name = "on a convex emitter", .scene = {}, .bakes = true};
+    add_box(e.scene, add_grey(e.scene, 0.5f, 1000), {0.3f, 0.2f, 0.1f}, {1.3f, 0.7f, 0.9f},
+            Facing::outwards);
+    e.checks = {{.quantity = "largest E of a texel",
+                 .source = "no way for light",
+                 .expected = 0,
+                 .read = [](const Evidence& found) { return max_over_node(*found.baked, -1); },
+                 .reference = kPi * 1000}};
+    return e;
+}
+
 Experiment beyond_the_cone() {
     Experiment e{.group = "darkness", .name = "outside the cone of a spot", .scene = {}};
     add_rectangle(e.scene, add_grey(e.scene, 0), {-1, -1, -1}, {0, 0, 2}, {2, 0, 0});
@@ -76,7 +89,7 @@ void shine_from_outside(Scene& scene, vec3 at) {
 /// A closed box, bright outside: `inner` is the node whose fronts are its inside.
 Experiment closed_box(std::string name, vec3 at, bool double_walls) {
     Experiment e{
-        .group = "darkness", .name = std::move(name), .scene = {}, .bakes = true, .resolution = 96};
+        .group = "darkness", .name = std::move(name), .scene = {}, .bakes = true, .resolution = 48};
     const int grey = add_grey(e.scene, 0.5f);
     const vec3 half{1, 1, 1}, shell{1.01f, 1.01f, 1.01f};
     const int inner = add_box(e.scene, grey, at - half, at + half, Facing::inwards);
@@ -103,6 +116,7 @@ std::vector<Experiment> darkness() {
         behind_a_plate("plate that turns its front to the light", true),
         behind_a_plate("plate that turns its back to the light", false),
         behind_an_emitter(),
+        on_a_convex_emitter(),
         beyond_the_cone(),
         closed_box("closed box", {0, 0, 0}, false),
         closed_box("closed box, 1 km from the origin", {1000, -1000, 1000}, false),

@@ -47,22 +47,21 @@ Result<CodedLight> code_light(const Lightmap& lightmap) {
             maxima, [&](float m) { return static_cast<double>(m) > coded.intensity; });
         coded.clipped_share = static_cast<double>(clipped) / static_cast<double>(maxima.size());
     }
-    Image relative = lightmap.irradiance;
-    const float scale = static_cast<float>(1 / coded.intensity);
-    for (vec3& pixel : relative.pixels) pixel *= scale;
-    AG_TRY(coded.png, srgb_png(relative, {}));
+    AG_TRY(coded.png, srgb_png(lightmap.irradiance, static_cast<float>(1 / coded.intensity)));
     return coded;
 }
 
-Result<std::vector<uint8_t>> srgb_png(const Image& image, const std::vector<float>& alpha) {
+Result<std::vector<uint8_t>> srgb_png(const Image& image, float scale,
+                                      const std::vector<float>& alpha) {
     const size_t channels = alpha.empty() ? 3 : 4;
     std::vector<uint8_t> bytes(image.pixels.size() * channels);
     parallel_for(image.pixels.size(), 65536, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             uint8_t* out = bytes.data() + i * channels;
-            out[0] = byte_of(linear_to_srgb(image.pixels[i].x));
-            out[1] = byte_of(linear_to_srgb(image.pixels[i].y));
-            out[2] = byte_of(linear_to_srgb(image.pixels[i].z));
+            const vec3 color = image.pixels[i] * scale;
+            out[0] = byte_of(linear_to_srgb(color.x));
+            out[1] = byte_of(linear_to_srgb(color.y));
+            out[2] = byte_of(linear_to_srgb(color.z));
             if (channels == 4) out[3] = byte_of(std::clamp(alpha[i], 0.0f, 1.0f));
         }
     });

@@ -23,8 +23,10 @@ double round_up(double value);
 /// Errors  out_of_memory.
 Result<CodedLight> code_light(const Lightmap& lightmap);
 
-/// PNG of display-linear colours, clipped to 0..1, with alpha where it is not empty.
+/// PNG of `scale` times the pixels, clipped to 0..1 and sRGB-coded, with alpha where it is not
+/// empty.
 /// Shapes  alpha: [pixels] or empty.   Errors  out_of_memory.
-Result<std::vector<uint8_t>> srgb_png(const Image& image, const std::vector<float>& alpha);
+Result<std::vector<uint8_t>> srgb_png(const Image& image, float scale,
+                                      const std::vector<float>& alpha = {});
 
 }  // namespace aglow::encode

@@ -74,7 +74,7 @@ Result<std::vector<uint8_t>> unlit_picture(const Scene& scene, const Surfaces& s
         for (const vec3 a : make_lightmap(texels, alphas, kGutter).irradiance.pixels)
             alpha.push_back(a.x);
     }
-    return srgb_png(make_lightmap(texels, shown, kGutter).irradiance, alpha);
+    return srgb_png(make_lightmap(texels, shown, kGutter).irradiance, 1, alpha);
 }
 
 }  // namespace aglow::encode

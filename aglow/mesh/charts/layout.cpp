@@ -127,6 +127,46 @@ bool is_free(const LayoutGroup& group) { return group.scales.size() == 1; }
 
 int cells(double length) { return static_cast<int>(std::ceil(std::min(length, kHugeBox) - 1e-9)); }
 
+/// Texel size in the units of a group's boxes.
+Point2 local_texel(const LayoutGroup& group, Point2 texel) {
+    return texel * (1 / block_scale(group.scales));
+}
+
+/// Lays out the group's block, where it has one, and lists what it packs into the atlas.
+GroupLayout list_items(const LayoutGroup& group, Point2 texel, int gutter,
+                       std::vector<PackItem>& items) {
+    GroupLayout result;
+    if (is_free(group)) {
+        const auto own = items_of(group.boxes, local_texel(group, texel), gutter, group.may_turn);
+        items.insert(items.end(), own.begin(), own.end());
+    } else if (!group.boxes.empty()) {
+        // Blocks shown larger lose their grip on the texel grid: one texel more keeps the gutter.
+        const int between = gutter + (same_scale(group.scales) ? 0 : 1);
+        result = lay_out_block(group, local_texel(group, texel), between);
+        for (size_t p = 0; p < group.scales.size(); ++p) {
+            const Point2 size = shown_size(result, group, p);
+            items.push_back({cells(size.x) + gutter, cells(size.y) + gutter});
+        }
+    }
+    return result;
+}
+
+/// Takes the group's places from the packing, starting at item `next`; moves `next` on.
+void take_places(const LayoutGroup& group, Point2 texel, int gutter, const Packing& packing,
+                 size_t& next, GroupLayout& result) {
+    if (is_free(group)) {
+        for (const Point2& box : group.boxes)
+            result.charts.push_back(
+                placed_box(box, local_texel(group, texel), packing.items[next++], gutter));
+    } else if (!group.boxes.empty()) {
+        for (size_t p = 0; p < group.scales.size(); ++p) {
+            const PackedItem& at = packing.items[next++];
+            result.placements.push_back(
+                {{double(at.x + gutter), double(at.y + gutter)}, shown_size(result, group, p)});
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<Layout> lay_out(const std::vector<LayoutGroup>& groups, Point2 texel,
@@ -134,48 +174,16 @@ std::optional<Layout> lay_out(const std::vector<LayoutGroup>& groups, Point2 tex
     Layout layout;
     layout.texel = texel;
     std::vector<PackItem> items;
-    for (const LayoutGroup& group : groups) {
-        GroupLayout result;
-        if (is_free(group)) {
-            const Point2 local = texel * (1 / block_scale(group.scales));
-            for (const PackItem& i : items_of(group.boxes, local, bounds.gutter, group.may_turn))
-                items.push_back(i);
-        } else if (!group.boxes.empty()) {
-            // Blocks shown larger lose their grip on the texel grid: one texel more keeps the
-            // gutter.
-            const int gutter = bounds.gutter + (same_scale(group.scales) ? 0 : 1);
-            result = lay_out_block(group, texel * (1 / block_scale(group.scales)), gutter);
-            for (size_t p = 0; p < group.scales.size(); ++p) {
-                const Point2 size = shown_size(result, group, p);
-                items.push_back({cells(size.x) + bounds.gutter, cells(size.y) + bounds.gutter});
-            }
-        }
-        layout.groups.push_back(std::move(result));
-    }
+    for (const LayoutGroup& group : groups)
+        layout.groups.push_back(list_items(group, texel, bounds.gutter, items));
     const Packing packing =
         pack(items, bounds.width - bounds.gutter, bounds.max_height - bounds.gutter, effort);
     if (packing.height < 0) return std::nullopt;
     layout.width = bounds.width;
     layout.height = std::max(1, packing.height + bounds.gutter);
-
     size_t next = 0;
-    for (size_t g = 0; g < groups.size(); ++g) {
-        const LayoutGroup& group = groups[g];
-        GroupLayout& result = layout.groups[g];
-        if (is_free(group)) {
-            const Point2 local = texel * (1 / block_scale(group.scales));
-            for (const Point2& box : group.boxes)
-                result.charts.push_back(
-                    placed_box(box, local, packing.items[next++], bounds.gutter));
-        } else if (!group.boxes.empty()) {
-            for (size_t p = 0; p < group.scales.size(); ++p) {
-                const PackedItem& at = packing.items[next++];
-                result.placements.push_back(
-                    {{double(at.x + bounds.gutter), double(at.y + bounds.gutter)},
-                     shown_size(result, group, p)});
-            }
-        }
-    }
+    for (size_t g = 0; g < groups.size(); ++g)
+        take_places(groups[g], texel, bounds.gutter, packing, next, layout.groups[g]);
     return layout;
 }
 

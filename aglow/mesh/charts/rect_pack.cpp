@@ -221,8 +221,7 @@ Packing pack(const std::vector<PackItem>& items, int width, int max_height, Pack
         return best.height >= 0 && int64_t{best.height} * width < area + width;
     };
     // Quadratic packing is for few items; beyond, the skyline is as tight.
-    constexpr size_t kFew = 300;
-    const bool few = items.size() <= (effort == PackEffort::thorough ? 2 * kFew : kFew);
+    const bool few = items.size() <= (effort == PackEffort::thorough ? 200u : 60u);
     const auto all_orders = orders(items);
     const size_t order_count = few || effort == PackEffort::thorough ? all_orders.size() : 2;
     const std::vector<PackItem> upright = fixed(items, false), lying = fixed(items, true);

@@ -24,14 +24,35 @@ vec3 probe_direction(int i, int count) {
     return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-/// Looks all round from `p`: where `p` is inside a closed room, the room's box. Of the
-/// coordinates that rays end at, the outermost 2 % are left out: a window's view is no room.
-std::optional<Box> room_around(const RayScene& rays, vec3 p) {
+/// The inside of a room, seen from a point in it.
+struct Room {
+    Box box;
+    vec3 opening = {0, 0, 0};  ///< unit, along an axis: where a whole side is open; zero if closed
+};
+
+/// The axis in the horizontal plane along which the rays that miss leave, zero where they are few
+/// or leave on several sides.
+vec3 opening_of(vec3 miss_sum, int miss_count) {
+    // The open side of a cube takes a sixth of all rays from its middle, and their mean direction
+    // is about 0.8 long; a window takes fewer rays, windows on two sides cancel out.
+    if (miss_count < kProbeRays / 10 || length(miss_sum) < 0.6f * static_cast<float>(miss_count))
+        return {0, 0, 0};
+    const vec3 mean = normalize(miss_sum);
+    if (std::abs(mean.x) > 0.85f) return {mean.x > 0 ? 1.0f : -1.0f, 0, 0};
+    if (std::abs(mean.z) > 0.85f) return {0, 0, mean.z > 0 ? 1.0f : -1.0f};
+    return {0, 0, 0};
+}
+
+/// Looks all round from `p`: where `p` is inside a room, that room. Of the coordinates that rays
+/// end at, the outermost 2 % are left out: what a window shows is no part of the room.
+std::optional<Room> room_around(const RayScene& rays, vec3 p) {
     std::array<std::vector<float>, 3> ends;
     int front = 0;
+    vec3 misses = {0, 0, 0};
     for (int i = 0; i < kProbeRays; ++i) {
         const vec3 direction = probe_direction(i, kProbeRays);
         const std::optional<Hit> hit = rays.intersect({p, direction});
+        if (!hit) misses += direction;
         if (!hit) continue;
         front += hit->front ? 1 : 0;
         const vec3 end = p + direction * hit->distance;
@@ -43,13 +64,15 @@ std::optional<Box> room_around(const RayScene& rays, vec3 p) {
     if (closed < kProbeRays * 7 / 10 || 4 * static_cast<size_t>(front) < 3 * closed) return {};
     for (auto& axis : ends) std::sort(axis.begin(), axis.end());
     const size_t skip = closed / 50, last = closed - 1 - skip;
-    return Box{{ends[0][skip], ends[1][skip], ends[2][skip]},
-               {ends[0][last], ends[1][last], ends[2][last]}};
+    return Room{{{ends[0][skip], ends[1][skip], ends[2][skip]},
+                 {ends[0][last], ends[1][last], ends[2][last]}},
+                opening_of(misses, kProbeRays - static_cast<int>(closed))};
 }
 
-/// The room that most of a few points about the middle of `box` see, none if most see none.
-std::optional<Box> find_room(const RayScene& rays, const Box& box) {
-    std::optional<Box> largest;
+/// The largest of the rooms that points about the middle of `box` stand in, none if fewer than
+/// half stand in one.
+std::optional<Room> find_room(const RayScene& rays, const Box& box) {
+    std::optional<Room> largest;
     int inside = 0;
     constexpr std::array<vec3, 5> kProbes = {{{0.5f, 0.5f, 0.5f},
                                               {0.35f, 0.6f, 0.4f},
@@ -57,10 +80,10 @@ std::optional<Box> find_room(const RayScene& rays, const Box& box) {
                                               {0.6f, 0.4f, 0.35f},
                                               {0.4f, 0.7f, 0.65f}}};
     for (vec3 probe : kProbes) {
-        const std::optional<Box> room = room_around(rays, box.lo + box.size() * probe);
+        const std::optional<Room> room = room_around(rays, box.lo + box.size() * probe);
         if (!room) continue;
         ++inside;
-        if (!largest || length(room->size()) > length(largest->size())) largest = room;
+        if (!largest || length(room->box.size()) > length(largest->box.size())) largest = room;
     }
     return 2 * inside > static_cast<int>(kProbes.size()) ? largest : std::nullopt;
 }
@@ -105,10 +128,9 @@ View room_view(const RayScene& rays, const Box& room, int width, int height) {
     return best;
 }
 
-/// The least distance from which all corners of the box fit into the image, along one direction.
-View object_view(const Box& box, int width, int height) {
+/// The least distance along `away` from which all corners of the box fit into the image.
+View framing_view(const Box& box, vec3 away, int width, int height) {
     const vec3 center = box.center();
-    const vec3 away = normalize(vec3{0.55f, 0.42f, 0.9f});
     View view = perspective_view(look_at(center + away, center), kObjectFov, 1, width, height);
     const vec3 right = transform_direction(view.to_world, {1, 0, 0});
     const vec3 up = transform_direction(view.to_world, {0, 1, 0});
@@ -153,9 +175,10 @@ View automatic_view(const Surfaces& surfaces, const RayScene& rays, int width, i
     for (uvec3 t : surfaces.triangles)
         for (uint32_t vertex : {t.x, t.y, t.z}) box.add(surfaces.positions[vertex]);
     if (box.empty()) box.add({0, 0, 0});
-    if (const std::optional<Box> room = find_room(rays, box))
-        return room_view(rays, *room, width, height);
-    return object_view(box, width, height);
+    const std::optional<Room> room = find_room(rays, box);
+    if (!room) return framing_view(box, normalize(vec3{0.55f, 0.42f, 0.9f}), width, height);
+    if (length(room->opening) > 0) return framing_view(box, room->opening, width, height);
+    return room_view(rays, room->box, width, height);
 }
 
 }  // namespace aglow::render::cpu

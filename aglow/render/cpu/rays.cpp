@@ -97,14 +97,22 @@ float tent(float u) {
     return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(std::max(0.0f, 2 - 2 * u));
 }
 
-/// Sample `i` of a pixel, relative to its middle: jittered in a cell of strata x strata, or
-/// anywhere once those are full.
-vec2 filter_offset(int i, int strata, Pcg32& random) {
-    const float u = random.uniform(), v = random.uniform();
-    if (i >= strata * strata) return {tent(u), tent(v)};
-    const auto side = static_cast<float>(strata);
-    return {tent((static_cast<float>(i % strata) + u) / side),
-            tent((static_cast<float>(i / strata) + v) / side)};
+/// Where the rays of every pixel pass, relative to its middle: a Hammersley set, whose points are
+/// spread evenly in both directions, shifted at random. All pixels share it, so that straight edges
+/// look alike along their length.
+std::vector<vec2> filter_offsets(const RaysOptions& options) {
+    Pcg32 random(options.seed);
+    const float shift_x = random.uniform(), shift_y = random.uniform();
+    const auto wrap = [](float v) { return v < 1 ? v : v - 1; };
+    std::vector<vec2> offsets;
+    for (int i = 0; i < options.samples; ++i) {
+        float mirrored = 0, digit = 0.5f;  // the bits of i behind the binary point
+        for (int bits = i; bits > 0; bits >>= 1, digit /= 2)
+            if (bits & 1) mirrored += digit;
+        const float even = static_cast<float>(i) / static_cast<float>(options.samples);
+        offsets.push_back({tent(wrap(even + shift_x)), tent(wrap(mirrored + shift_y))});
+    }
+    return offsets;
 }
 
 }  // namespace
@@ -117,18 +125,15 @@ Result<Image> render_rays(const Scene& scene, const Surfaces& surfaces, const Ra
         return fail(Errc::bad_argument,
                     fmt::format("{} rays per pixel: at least 1 is needed", options.samples));
     const Shader shader{scene, surfaces, rays, irradiance};
-    const auto strata = static_cast<int>(std::sqrt(static_cast<double>(options.samples) + 0.5));
+    const std::vector<vec2> offsets = filter_offsets(options);
     Image image(view.width, view.height);
     const auto draw = [&](size_t pixel) {
         const auto row = static_cast<size_t>(view.width);
         const float x = static_cast<float>(pixel % row) + 0.5f;
         const float y = static_cast<float>(pixel / row) + 0.5f;
-        Pcg32 random(options.seed, pixel);
         vec3 sum = {0, 0, 0};
-        for (int i = 0; i < options.samples; ++i) {
-            const vec2 offset = filter_offset(i, strata, random);
+        for (const vec2 offset : offsets)
             sum += shader.luminance_along(view.ray(x + offset.x, y + offset.y));
-        }
         image.pixels[pixel] = sum / static_cast<float>(options.samples);
     };
     AG_CHECK(for_each_pixel(view, monitor, draw));

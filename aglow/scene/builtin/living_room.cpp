@@ -44,7 +44,7 @@ Scene living_room() {
     add_lamps(scene, paints);
     add_afternoon_sun(scene);
 
-    scene.look({-2.3f, 1.45f, -1.8f}, {0.85f, 0.95f, 0.75f}, 52);
+    scene.look({-2.32f, 1.5f, -1.78f}, {0.72f, 0.93f, 0.85f}, 52);
     return scene.take();
 }
 

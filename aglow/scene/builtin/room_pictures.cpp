@@ -81,7 +81,7 @@ void add_picture(SceneBuilder& scene, const std::string& name, vec3 (*image)(flo
                  int frame_paint) {
     constexpr float kWidth = 0.46f, kHeight = 0.58f, kCenterY = 1.50f, kProud = 0.008f;
     const auto color = [image](float u, float v) { return mounted(u, v, image); };
-    const int print = scene.textured(painted(name, 288, 360, color));
+    const int print = scene.textured(painted(name, 256, 256, color));
     const float x = kWidth / 2 - 0.02f, y = kHeight / 2 - 0.02f;
     const Shape sheet_of_paper =
         quad({-x, -y, kProud}, {x, -y, kProud}, {x, y, kProud}, {-x, y, kProud});

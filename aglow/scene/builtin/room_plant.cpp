@@ -68,7 +68,7 @@ Shape blade(const Stem& stem, float size, float droop) {
         const float width =
             0.36f * size * std::pow(std::max(0.0f, std::sin(kPi * std::pow(v, 0.75f))), 0.8f);
         const float fold = 0.20f * std::abs(x) * width;
-        const float wave = 0.012f * size * std::sin(9 * v) * x;
+        const float wave = 0.12f * width * std::sin(9 * v) * x;
         const vec3 rib =
             tip + out * (size * v * (1 - 0.25f * v * droop)) - up * (size * droop * v * v * 0.7f);
         return rib + side * (x * width) + up * (fold + wave);

@@ -53,7 +53,7 @@ vec3 boards(float u, float v) {
 
 int oak_floor(SceneBuilder& scene) {
     constexpr float kMetresPerImage = 2.4f;
-    const int floor = scene.textured(painted("oak boards", 768, 768, boards));
+    const int floor = scene.textured(painted("oak boards", 1024, 1024, boards));
     TextureRef& texture = scene.material(floor).base_color_texture;
     texture.scale = {1 / kMetresPerImage, 1 / kMetresPerImage};
     return floor;
@@ -130,16 +130,19 @@ Shape window_board(Opening opening) {
                        {opening.x1 + 0.05f, kSill + 0.015f, kHalfZ + 0.11f}, 0.008f, 2);
 }
 
+/// Pushes every vertex outward by waves of its place: foliage seen from afar.
+Shape leafy(Shape shape, float depth) {
+    for (size_t i = 0; i < shape.positions.size(); ++i) {
+        vec3& p = shape.positions[i];
+        const float waves = std::sin(9 * p.x + 2 * p.y) * std::sin(8 * p.y + 1) +
+                            std::sin(13 * p.x - 4 * p.z) * std::sin(11 * p.z + 3 * p.y);
+        p += shape.normals[i] * (depth * waves);
+    }
+    return soup_to_shape(std::move(shape), 180);
+}
+
 Shape hedge() {
-    const auto leafy = [](vec3 p) {
-        const float bumps =
-            std::sin(7 * p.x) * std::sin(8 * p.y + 1) + std::sin(13 * p.x + 2 * p.z);
-        return 0.05f * bumps;
-    };
-    Shape shape = rounded_box({-4.4f, -0.2f, 5.4f}, {4.4f, 0.95f, 6.1f}, 0.12f, 2, 0.02f);
-    for (size_t i = 0; i < shape.positions.size(); ++i)
-        shape.positions[i].y += std::max(0.0f, shape.positions[i].y) * leafy(shape.positions[i]);
-    return shape;
+    return leafy(rounded_box({-4.4f, -0.25f, 5.4f}, {4.4f, 0.85f, 6.1f}, 0.16f, 3, 0.05f), 0.05f);
 }
 
 }  // namespace
@@ -173,15 +176,20 @@ void add_windows(SceneBuilder& scene, const Paints& paints) {
 
 void add_garden(SceneBuilder& scene, const Paints& paints) {
     const int stone = scene.diffuse("terrace", {0.42f, 0.39f, 0.35f});
-    const int grass = scene.diffuse("grass", {0.10f, 0.19f, 0.05f});
-    const int leaves = scene.diffuse("hedge", {0.06f, 0.13f, 0.04f});
+    const int grass = scene.diffuse("grass", {0.09f, 0.14f, 0.045f});
+    const int leaves = scene.diffuse("hedge", {0.045f, 0.085f, 0.035f});
+    const int foliage = scene.diffuse("foliage", {0.07f, 0.105f, 0.035f});
     constexpr float kSouth = kHalfZ + kWall;
     scene.add("terrace", box({-3.2f, -0.3f, kSouth - 0.05f}, {3.2f, -0.12f, kSouth + 1.6f}), stone);
     scene.add("lawn", box({-4.6f, -0.3f, kSouth + 1.5f}, {4.6f, -0.15f, 6.3f}), grass);
     scene.add("hedge", hedge(), leaves);
-    const Shape crown = sphere({0, 0, 0}, 1, 24, 14);
-    scene.add("tree", {{crown.scaled({0.75f, 0.85f, 0.75f}).moved({-2.1f, 2.0f, 5.2f}), leaves},
-                       {cylinder({-2.1f, -0.2f, 5.2f}, 0.07f, 1.6f, 12), paints.dark_wood}});
+    // Low enough to leave the sun to the room.
+    const Shape crown = leafy(sphere({0, 0, 0}, 1, 28, 16), 0.07f);
+    int number = 1;
+    for (const vec3 at : {vec3{0.45f, 0, 5.0f}, {3.7f, 0, 4.9f}})
+        scene.add("tree " + std::to_string(number++),
+                  {{crown.scaled({0.72f, 0.80f, 0.72f}).moved(at + vec3{0, 1.78f, 0}), foliage},
+                   {cylinder(at - vec3{0, 0.2f, 0}, 0.06f, 1.5f, 12), paints.dark_wood}});
 }
 
 }  // namespace aglow::builtin

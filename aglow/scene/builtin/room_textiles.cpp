@@ -36,7 +36,7 @@ vec3 rug_color(float u, float v) {
 
 void add_rug(SceneBuilder& scene) {
     constexpr vec3 kLo{-0.15f, -0.003f, -0.95f}, kHi{1.55f, 0.011f, 1.70f};
-    const int paint = scene.textured(painted("rug", 512, 768, rug_color));
+    const int paint = scene.textured(painted("rug", 512, 1024, rug_color));
     Shape rug = rounded_box(kLo, kHi, 0.006f, 2);
     for (size_t i = 0; i < rug.positions.size(); ++i)
         rug.texcoords[i] = {(rug.positions[i].x - kLo.x) / (kHi.x - kLo.x),
@@ -52,7 +52,7 @@ Shape curtain(float x0, float x1, float folds, float phase) {
         const float angle = 2 * kPi * folds * u + phase + 0.5f * std::sin(3.1f * u + 2.2f * fall);
         const float depth = kFoldDepth * (0.55f + 0.45f * fall);
         const float sway = 0.012f * std::sin(5 * u + 3 * fall + phase);
-        const float x = shared::mix(x0, x1, u) + 0.35f * depth * std::sin(2 * angle);
+        const float x = shared::mix(x0, x1, u) - 0.14f * depth * std::sin(2 * angle);
         return vec3{x, shared::mix(kHem, kTop, v),
                     kHalfZ - 0.115f + depth * std::sin(angle) + sway};
     };
@@ -72,22 +72,24 @@ Shape rod() {
     return shape;
 }
 
-/// Folded blanket over the sofa's southern arm.
+/// Blanket over the sofa's southern arm: short on the seat's side, long on the outer one.
 Shape blanket() {
-    constexpr float kArmZ = 1.335f, kArmTop = 0.615f, kHalfArm = 0.098f, kLength = 0.95f;
+    constexpr float kArmZ = 1.335f, kArmTop = 0.615f, kHalfArm = 0.098f;
+    constexpr float kInner = -0.235f,
+                    kOuter = 0.50f;  // m of cloth to both sides of the arm's ridge
     const auto point = [=](float u, float v) {
-        // v runs from the inner side over the arm's top to the outer side.
-        const float run = (v - 0.45f) * kLength;
+        const float run = shared::mix(kInner, kOuter, v);
         const float over = std::clamp(run, -kHalfArm, kHalfArm);
         const float drop = std::abs(run) - std::abs(over);
-        const float round = 0.02f * (over / kHalfArm) * (over / kHalfArm);
-        const float ripple = 0.006f * std::sin(21 * u + 4 * v) + 0.004f * std::sin(9 * u - 7 * v);
-        const float out = drop > 0 ? std::copysign(0.012f + ripple + 0.02f * drop, run) : 0;
-        const float y = kArmTop + ripple * 0.4f + 0.004f - round - drop;
-        return vec3{shared::mix(2.12f, 1.72f, u) + 0.03f * std::sin(3 * v),
-                    std::max(y, 0.47f * (run < 0)), kArmZ + over + out};
+        const float hang = std::min(1.0f, drop / 0.05f);  // 0 on the arm, 1 where cloth hangs free
+        const float round = 0.022f * (over / kHalfArm) * (over / kHalfArm);
+        const float ripple = 0.007f * std::sin(19 * u + 2 * v) + 0.003f * std::sin(9 * u - 7 * v);
+        const float away = hang * (0.012f + ripple) + 0.03f * drop;
+        return vec3{shared::mix(2.12f, 1.72f, u) + 0.02f * std::sin(3 * v),
+                    kArmTop + 0.004f + 0.3f * ripple - round - drop,
+                    kArmZ + over + std::copysign(away, run)};
     };
-    return sheet(point, 16, 44);
+    return sheet(point, 16, 36);
 }
 
 }  // namespace

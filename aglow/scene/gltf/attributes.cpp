@@ -63,6 +63,7 @@ Result<std::optional<DracoPrimitive>> read_draco(const Json& primitive, const Js
     }
     AG_TRY(result.mesh,
            decode_draco(views[static_cast<size_t>(view)].bytes, requests, primitive.element()));
+    AG_CHECK(accessors.charge(result.mesh.indices.size(), primitive.element()));
     for (const DracoRequest& request : requests)
         AG_CHECK(
             accessors.charge(result.mesh.vertex_count * static_cast<uint64_t>(request.components),

@@ -66,11 +66,10 @@ Result<Range> read_range(const Json& json, std::span<const uint64_t> lengths) {
 /// Reads the compressed twin of `range`. Its source must be a buffer that holds bytes.
 Result<MeshoptBlock> read_meshopt(const Json& json, const Range& range,
                                   const std::vector<std::vector<uint8_t>>& buffers,
+                                  std::span<const uint64_t> lengths,
                                   const std::vector<bool>& fallback) {
     AG_TRY(const Json extension, json.extension("EXT_meshopt_compression"));
     if (!extension.exists()) return json.wrong("lies in a fallback buffer but is not compressed");
-    std::vector<uint64_t> lengths;
-    for (const auto& buffer : buffers) lengths.push_back(buffer.size());
     AG_TRY(const int buffer, extension.required_index("buffer", buffers.size(), "buffer"));
     if (fallback[static_cast<size_t>(buffer)])
         return json.wrong("compressed bytes lie in a fallback buffer");
@@ -121,10 +120,13 @@ Status decompress(const Json& root, std::span<const Json> views, std::span<const
         AG_TRY(const bool missing, is_fallback(buffer));
         fallback.push_back(missing);
     }
+    std::vector<uint64_t> lengths;
+    lengths.reserve(buffers.size());
+    for (const auto& buffer : buffers) lengths.push_back(buffer.size());
     std::vector<Compressed> compressed;
     for (size_t i = 0; i < views.size(); ++i) {
         if (!fallback[ranges[i].buffer]) continue;
-        AG_TRY(MeshoptBlock block, read_meshopt(views[i], ranges[i], buffers, fallback));
+        AG_TRY(MeshoptBlock block, read_meshopt(views[i], ranges[i], buffers, lengths, fallback));
         compressed.push_back({i, std::move(block)});
     }
     AG_CHECK(allocate_fallbacks(compressed, views, ranges, buffers));

@@ -51,6 +51,10 @@ constexpr std::string_view kIrrelevant[] = {
     "ADOBE_materials_clearcoat_specular",
 };
 
+/// Extensions that change diffuse light and are not known; a file may use them as an option.
+constexpr std::string_view kMissed[] = {"EXT_lights_ies", "EXT_lights_image_based",
+                                        "KHR_materials_diffuse_transmission"};
+
 bool is_known(std::string_view name) {
     const auto holds = [&](const auto& list) {
         return std::find(std::begin(list), std::end(list), name) != std::end(list);
@@ -72,7 +76,7 @@ Status check_version(const Json& root) {
 
 }  // namespace
 
-Status check_requirements(const Json& root) {
+Status check_requirements(const Json& root, std::vector<std::string>& warnings) {
     AG_CHECK(check_version(root));
     AG_TRY(const Json required, root.array("extensionsRequired"));
     for (size_t i = 0; i < required.size(); ++i) {
@@ -80,6 +84,12 @@ Status check_requirements(const Json& root) {
         if (!is_known(name))
             return fail(Errc::unsupported, fmt::format("required extension \"{}\" is not supported",
                                                        name.substr(0, 80)));
+    }
+    AG_TRY(const Json used, root.array("extensionsUsed"));
+    for (size_t i = 0; i < used.size(); ++i) {
+        AG_TRY(const std::string name, used.text_at(i));
+        if (std::find(std::begin(kMissed), std::end(kMissed), name) != std::end(kMissed))
+            warnings.push_back(name + " is not supported; its part of the light is left out");
     }
     return {};
 }

@@ -22,15 +22,14 @@ namespace {
 Result<Scene> read_scene(const gltf::Container& file, GltfSource& source) {
     AG_TRY(const gltf::JsonDocument document, gltf::JsonDocument::parse(file.json));
     const gltf::Json root = document.root();
-    AG_CHECK(gltf::check_requirements(root));
-
+    Scene scene;
+    AG_CHECK(gltf::check_requirements(root, scene.warnings));
     AG_TRY(source.buffers, gltf::read_buffers(root, file.binary, source.folder));
     AG_TRY(const auto views, gltf::read_buffer_views(root, source.buffers));
     size_t file_bytes = file.json.size();
     for (const auto& buffer : source.buffers) file_bytes += buffer.size();
     AG_TRY(auto accessors, gltf::Accessors::read(root, views, file_bytes));
 
-    Scene scene;
     AG_TRY(auto images, gltf::read_images(root, views, source.folder));
     AG_TRY(scene.textures, gltf::read_textures(root, images));
     AG_TRY(scene.materials, gltf::read_materials(root, scene.textures, scene.warnings));

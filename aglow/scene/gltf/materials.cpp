@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace aglow::gltf {
 namespace {
@@ -140,24 +141,14 @@ Status read_alpha(const Json& json, Material& material) {
     return {};
 }
 
-/// The largest reflectance that a material shows anywhere, metal aside.
-float largest_reflectance(const Scene& scene, const Material& material) {
-    const vec4 c = material.base_color;
-    vec3 texel{1, 1, 1};
-    if (material.base_color_texture.texture >= 0) {
-        const auto texture = static_cast<size_t>(material.base_color_texture.texture);
-        const auto image = static_cast<size_t>(scene.textures[texture].image);
-        uint8_t largest[3] = {0, 0, 0};
-        const std::vector<uint8_t>& rgba = scene.images[image].rgba;
-        for (size_t i = 0; i + 3 < rgba.size(); i += 4)
-            for (size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], rgba[i + k]);
-        texel = {srgb_to_linear(static_cast<float>(largest[0]) / 255.0f),
-                 srgb_to_linear(static_cast<float>(largest[1]) / 255.0f),
-                 srgb_to_linear(static_cast<float>(largest[2]) / 255.0f)};
-    }
-    // A texture may make any part of a surface less metallic than the factor says.
-    const float metallic = material.metallic_roughness_texture.texture < 0 ? material.metallic : 0;
-    return std::max({c.x * texel.x, c.y * texel.y, c.z * texel.z}) * (1 - metallic);
+/// The largest value of each channel of an image, linear.
+vec3 largest_texel(const TextureImage& image) {
+    uint8_t largest[3] = {0, 0, 0};
+    for (size_t i = 0; i + 3 < image.rgba.size(); i += 4)
+        for (size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], image.rgba[i + k]);
+    return {srgb_to_linear(static_cast<float>(largest[0]) / 255.0f),
+            srgb_to_linear(static_cast<float>(largest[1]) / 255.0f),
+            srgb_to_linear(static_cast<float>(largest[2]) / 255.0f)};
 }
 
 Result<Material> read_material(const Reader& reader, const Json& json) {
@@ -186,13 +177,24 @@ Result<std::vector<Material>> read_materials(const Json& root, std::span<const T
 }
 
 void warn_of_reflectance(Scene& scene) {
+    std::vector<std::optional<vec3>> largest(scene.images.size());  // many materials share images
     for (size_t i = 0; i < scene.materials.size(); ++i) {
-        const float reflectance = largest_reflectance(scene, scene.materials[i]);
+        const Material& material = scene.materials[i];
+        vec3 color{material.base_color.x, material.base_color.y, material.base_color.z};
+        if (const int texture = material.base_color_texture.texture; texture >= 0) {
+            const auto image =
+                static_cast<size_t>(scene.textures[static_cast<size_t>(texture)].image);
+            if (!largest[image]) largest[image] = largest_texel(scene.images[image]);
+            color *= *largest[image];
+        }
+        // A texture may make any part of a surface less metallic than the factor says.
+        const bool textured_metal = material.metallic_roughness_texture.texture >= 0;
+        const float metallic = textured_metal ? 0 : material.metallic;
+        const float reflectance = std::max({color.x, color.y, color.z}) * (1 - metallic);
         if (reflectance > kClampedReflectance)
-            scene.warnings.push_back(
-                fmt::format("{}: reflectance {:.3g} is clamped to {} so that light dies out",
-                            element_name("material", i, scene.materials[i].name), reflectance,
-                            kClampedReflectance));
+            scene.warnings.push_back(fmt::format(
+                "{}: reflectance {:.3g} is clamped to {} so that light dies out",
+                element_name("material", i, material.name), reflectance, kClampedReflectance));
     }
 }
 

@@ -160,9 +160,17 @@ Status read_vertices(const Reader& reader, const Json& json, AttributeReader& at
     return read_targets(reader, json, primitive);
 }
 
+/// Numbers that flat shading will write: all attributes of three vertices per triangle.
+uint64_t flat_numbers(const Primitive& primitive) {
+    const size_t attributes = 10 + 2 * primitive.texcoords.size() +
+                              2 * static_cast<size_t>(primitive.influences) +
+                              3 * primitive.targets.size();
+    return 3 * attributes * primitive.triangles.size();
+}
+
 Status make_normals(const Reader& reader, const Json& json, Primitive& primitive) {
     if (primitive.normals.empty()) {
-        AG_CHECK(reader.accessors.charge(27 * primitive.triangles.size(), json.element()));
+        AG_CHECK(reader.accessors.charge(flat_numbers(primitive), json.element()));
         make_flat(primitive);
         return {};
     }

@@ -11,13 +11,17 @@
 namespace aglow::gltf {
 namespace {
 
-/// Unit quaternion; the identity with a warning where the file's has no direction.
-vec4 unit_quaternion(vec4 q, std::string_view element, std::vector<std::string>& warnings) {
-    const double length = std::hypot(std::hypot(static_cast<double>(q.x), q.y),
-                                     std::hypot(static_cast<double>(q.z), q.w));
-    constexpr double kTolerance = 1e-2;  // rounding of 8-bit quaternions stays below
-    if (std::abs(length - 1) > kTolerance)
-        warnings.push_back(fmt::format("{}: rotation is not a unit quaternion", element));
+double norm(vec4 q) {
+    return std::hypot(std::hypot(static_cast<double>(q.x), q.y),
+                      std::hypot(static_cast<double>(q.z), q.w));
+}
+
+/// Rounding of 8-bit quaternions stays below.
+bool is_unit(vec4 q) { return std::abs(norm(q) - 1) <= 1e-2; }
+
+/// Unit quaternion along `q`; the identity where it has no direction.
+vec4 unit_quaternion(vec4 q) {
+    const double length = norm(q);
     if (!(length > 0)) return {0, 0, 0, 1};
     return {static_cast<float>(q.x / length), static_cast<float>(q.y / length),
             static_cast<float>(q.z / length), static_cast<float>(q.w / length)};
@@ -29,7 +33,9 @@ Status read_transform(const Json& json, Node& node, std::vector<std::string>& wa
     AG_CHECK(json.numbers("rotation", r));
     AG_CHECK(json.numbers("scale", s));
     node.translation = {t[0], t[1], t[2]};
-    node.rotation = unit_quaternion({r[0], r[1], r[2], r[3]}, json.element(), warnings);
+    node.rotation = unit_quaternion({r[0], r[1], r[2], r[3]});
+    if (!is_unit({r[0], r[1], r[2], r[3]}))
+        warnings.push_back(json.element() + ": rotation is not a unit quaternion");
     node.scale = {s[0], s[1], s[2]};
     node.has_matrix = json.has("matrix");
     AG_CHECK(json.numbers("matrix", node.matrix.m));
@@ -76,17 +82,18 @@ Status read_instances(const Json& json, Accessors& accessors, Node& node,
     if (count == 0) return json.wrong("EXT_mesh_gpu_instancing places no instance");
     AG_CHECK(attributes.charge(16 * count));
     node.instances.reserve(count);
-    std::vector<std::string> odd;
+    bool all_unit = true;
     for (size_t i = 0; i < count; ++i) {
         vec3 translation{0, 0, 0}, scale{1, 1, 1};
         vec4 rotation{0, 0, 0, 1};
         if (!t.empty()) translation = {t[3 * i], t[3 * i + 1], t[3 * i + 2]};
         if (!s.empty()) scale = {s[3 * i], s[3 * i + 1], s[3 * i + 2]};
         if (!r.empty()) rotation = {r[4 * i], r[4 * i + 1], r[4 * i + 2], r[4 * i + 3]};
-        rotation = unit_quaternion(rotation, json.element() + " instances", odd);
-        node.instances.push_back(compose(translation, rotation, scale));
+        all_unit = all_unit && is_unit(rotation);
+        node.instances.push_back(compose(translation, unit_quaternion(rotation), scale));
     }
-    if (!odd.empty()) warnings.push_back(odd.front());
+    if (!all_unit)
+        warnings.push_back(json.element() + ": an instance's rotation is not a unit quaternion");
     return {};
 }
 

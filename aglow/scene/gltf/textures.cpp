@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace aglow::gltf {
 namespace {
 
@@ -67,11 +69,12 @@ Status check_total(const EncodedImages& images, const std::vector<bool>& used) {
     constexpr uint64_t kFreePixels = 1 << 26;
     constexpr uint64_t kPixelsPerByte = 8192;  // of one-bit PNG at the best ratio of deflate
     uint64_t pixels = 0, bytes = 0;
+    std::set<const uint8_t*> counted;  // many images may share the bytes of one view
     for (size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         AG_TRY(const ImageSize size, image_size(images.bytes[i], images.elements[i]));
         pixels += static_cast<uint64_t>(size.width) * static_cast<uint64_t>(size.height);
-        bytes += images.bytes[i].size();
+        if (counted.insert(images.bytes[i].data()).second) bytes += images.bytes[i].size();
         if (pixels > kFreePixels + kPixelsPerByte * bytes)
             return fail(Errc::out_of_memory, images.elements[i] +
                                                  ": decodes to far more pixels than its file has "
