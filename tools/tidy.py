@@ -28,7 +28,8 @@ def project_sources(build):
     commands = json.loads((build / "compile_commands.json").read_text())
     files = {pathlib.Path(c["file"]).resolve() for c in commands}
     return sorted(f for f in files
-                  if f.is_relative_to(ROOT) and f.relative_to(ROOT).parts[0] in FOLDERS)
+                  if f.is_relative_to(ROOT) and f.relative_to(ROOT).parts[0] in FOLDERS
+                  and not f.name.endswith("_test.cpp"))  # doctest's macros are not ours to judge
 
 
 def changed_files():
@@ -50,6 +51,7 @@ def digest_of_headers():
 def tidy(build, source):
     """What clang-tidy finds in the source, or an empty text."""
     done = subprocess.run(["clang-tidy", "--quiet", "-p", str(build), "--extra-arg=-Wno-error",
+                           "--extra-arg=-Wno-unknown-warning-option",
                            str(source)], capture_output=True, text=True)
     return done.stdout + done.stderr if done.returncode != 0 else ""
 

@@ -21,6 +21,9 @@ struct Texels {
     std::vector<uint32_t> first_sample;  ///< [element_count + 1] offsets into samples
     std::vector<SurfacePoint> samples;
     std::vector<float> area;  ///< [element_count] covered surface, m^2
+    /// [element_count] 1 where a wall divides a texel and `samples` are of one side only, so that
+    /// its light does not hold all over it; or empty: none is. See drop_hidden_points().
+    std::vector<uint8_t> divided;
 
     size_t element_count() const { return pixel_of.size(); }
 };

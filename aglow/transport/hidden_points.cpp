@@ -136,6 +136,7 @@ void drop_hidden_points(const Surfaces& surfaces, const Scene& scene, const RayS
         kept.element_at[pixel] = static_cast<uint32_t>(kept.pixel_of.size());
         kept.pixel_of.push_back(pixel);
         kept.area.push_back(texels.area[e]);
+        kept.divided.push_back(sights[e] == Sight::mixed);
         kept.first_sample.push_back(static_cast<uint32_t>(kept.samples.size()));
     }
     texels = std::move(kept);

@@ -8,7 +8,7 @@ namespace aglow {
 /// Takes sample points that lie inside other geometry (a floor under a table leg) out of texels
 /// that also have points in the open, so that what nobody sees does not darken what one sees. A
 /// point counts as hidden when all its rays meet the backs of surfaces that are not double-sided.
-/// Where a wall stands across a texel, only the points of its greater side stay: light of one room
+/// Such texels are marked as divided. Where a wall stands across a texel, only the points of its greater side stay: light of one room
 /// does not leak into the next through the floor that both share.
 /// Hidden texels that hang together with texels in the open are no longer covered: the gutter
 /// fill of the lightmap then reaches under the object, and no dark seam shows round it. A texel is

@@ -103,7 +103,7 @@ double validation_tolerance(Quality quality) {
         case Quality::draft:
             return 0.05;
         case Quality::medium:
-            return 0.02;
+            return 0.01;
         case Quality::high:
             break;
     }

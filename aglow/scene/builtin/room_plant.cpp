@@ -82,7 +82,7 @@ void add_plant(SceneBuilder& scene) {
     const int earth = scene.diffuse("earth", {0.045f, 0.03f, 0.02f});
     const int terracotta = scene.diffuse("terracotta", {0.42f, 0.17f, 0.09f});
     const int stalk = scene.diffuse("stalk", {0.13f, 0.19f, 0.06f});
-    const int leaf = scene.diffuse("leaf", {0.06f, 0.19f, 0.05f});
+    const int leaf = scene.diffuse("leaf", {0.075f, 0.165f, 0.055f});
     scene.material(leaf).double_sided = true;
 
     Dice dice(3);

@@ -56,7 +56,7 @@ Gathered gather_points(const World& world, const TexelMap& map, const GatherCach
                        std::span<const Receiver> points, uint32_t index, float floor,
                        const GatherOptions& options, uint64_t& ray_count) {
     const Samples samples(options.seed, index, 1);
-    const int max_backs = options.bounces == kConverged ? kUnlimited : options.bounces;
+    const int max_vertices = options.bounces == kConverged ? kUnlimited : options.bounces;
     const bool looks_around =
         options.bounces != 0 || world.lights.has_sky() || world.lights.has_emitters();
     const auto max_samples = static_cast<uint32_t>(options.max_samples);
@@ -84,7 +84,7 @@ Gathered gather_points(const World& world, const TexelMap& map, const GatherCach
                 collector.direct_sum +=
                     sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
                 if (looks_around)
-                    gather_ray(world, map, from, samples, done, draw.hemisphere, max_backs,
+                    gather_ray(world, map, from, samples, done, draw.hemisphere, max_vertices,
                                collector, ray_count);
             }
             const vec3 gained = collector.direct_sum + collector.indirect_sum - before;

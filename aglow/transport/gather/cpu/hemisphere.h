@@ -66,25 +66,26 @@ inline const Outlook& pick(std::span<const Outlook> outlooks, float u) {
 
 /// What a hemisphere ray finds, told to a visitor with three members:
 ///   direct(irradiance)           sky or emission seen from the receiver itself
-///   texel(delay, element, w)     light of a texel's front, weighted by w, after `delay` backs
-///   light(delay, exitance)       light that reached back number `delay` (0: the first) directly
-/// Texels hold the light of fronts only, so a ray that meets a back goes on as a path until it
-/// finds a front. At most `max_backs` backs are followed; kUnlimited leaves the end to Russian
-/// roulette.
+///   texel(delay, element, w)     light of a texel, weighted by w, after `delay` path vertices
+///   light(delay, exitance)       light that reached path vertex number `delay` (0: the first)
+///   directly
+/// Texels hold the light of fronts only. A ray that meets a back, or a front without a texel of
+/// its own, goes on from there as a path until it finds a texel. At most `max_vertices` vertices
+/// are followed; kUnlimited leaves the end to Russian roulette.
 inline constexpr int kUnlimited = -1;
 
 template <class Visitor>
-void follow_backs(const World& world, const TexelMap& map, accel::cpu::SurfaceHit hit, Pcg32 random,
-                  int max_backs, Visitor&& visitor, uint64_t& ray_count) {
+void follow_path(const World& world, const TexelMap& map, accel::cpu::SurfaceHit hit, Pcg32 random,
+                 int max_vertices, Visitor&& visitor, uint64_t& ray_count) {
     vec3 weight{1, 1, 1};
-    for (int delay = 0; max_backs == kUnlimited || delay < max_backs; ++delay) {
+    for (int delay = 0; max_vertices == kUnlimited || delay < max_vertices; ++delay) {
         weight *= diffuse_reflectance(world.scene, world.surfaces, hit.at);
-        const Vantage at = vantage_on(world.surfaces, hit.at, false);
+        const Vantage at = vantage_on(world.surfaces, hit.at, hit.front);
         const vec3 u_emitter{random.uniform(), random.uniform(), random.uniform()};
         const vec2 u_sky{random.uniform(), random.uniform()};
         visitor.light(delay, weight * (delta_irradiance(world, at, ray_count) +
                                        sampled_irradiance(world, at, u_emitter, u_sky, ray_count)));
-        if (max_backs == kUnlimited) {
+        if (max_vertices == kUnlimited) {
             // Weights stay at or below 1, so that links pass on no more light than there is.
             const float survival = shared::max(weight.x, shared::max(weight.y, weight.z));
             if (!(random.uniform() < survival)) return;
@@ -99,9 +100,9 @@ void follow_backs(const World& world, const TexelMap& map, accel::cpu::SurfaceHi
         }
         if (world.lights.has_emitters())
             visitor.light(delay, weight * emission_seen(world, at, direction, hit.at, hit.front));
-        if (hit.front) {
-            const uint32_t element = map.element(hit.at);
-            if (element != kNoElement) visitor.texel(delay + 1, element, weight);
+        const uint32_t element = hit.front ? map.element(hit.at) : kNoElement;
+        if (element != kNoElement) {
+            visitor.texel(delay + 1, element, weight);
             return;
         }
     }
@@ -110,7 +111,7 @@ void follow_backs(const World& world, const TexelMap& map, accel::cpu::SurfaceHi
 /// Sends ray `i` of a receiver from one of its points and tells the visitor what it finds.
 template <class Visitor>
 void gather_ray(const World& world, const TexelMap& map, const Outlook& from,
-                const Samples& samples, uint32_t i, vec2 u, int max_backs, Visitor&& visitor,
+                const Samples& samples, uint32_t i, vec2 u, int max_vertices, Visitor&& visitor,
                 uint64_t& ray_count) {
     const Vantage& at = from.at;
     const vec3 direction = from.frame.to_world(shared::cosine_hemisphere(u));
@@ -123,12 +124,11 @@ void gather_ray(const World& world, const TexelMap& map, const Outlook& from,
     }
     if (world.lights.has_emitters())
         visitor.direct(emission_seen(world, at, direction, hit.at, hit.front));
-    if (hit.front) {
-        const uint32_t element = map.element(hit.at);
-        if (element != kNoElement) visitor.texel(0, element, vec3{1, 1, 1});
-    } else {
-        follow_backs(world, map, hit, samples.path(i), max_backs, visitor, ray_count);
-    }
+    const uint32_t element = hit.front ? map.element(hit.at) : kNoElement;
+    if (element != kNoElement)
+        visitor.texel(0, element, vec3{1, 1, 1});
+    else
+        follow_path(world, map, hit, samples.path(i), max_vertices, visitor, ray_count);
 }
 
 }  // namespace aglow::transport::cpu

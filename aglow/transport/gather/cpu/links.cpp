@@ -23,7 +23,7 @@ int rays_per_texel(const GatherOptions& options, size_t element_count) {
 /// Receives what the rays of one texel find.
 struct LinkCollector {
     std::span<uint32_t> to;
-    std::vector<BackLink>& backs;
+    std::vector<PathLink>& paths;
     vec3& direct_sum;
     uint32_t from;
     uint32_t ray = 0;
@@ -33,22 +33,22 @@ struct LinkCollector {
         if (delay == 0)
             to[ray] = element;
         else
-            backs.push_back({from, element, delay, weight});
+            paths.push_back({from, element, delay, weight});
     }
     void light(int delay, vec3 exitance) {
-        if (exitance != vec3{0, 0, 0}) backs.push_back({from, kNoElement, delay, exitance});
+        if (exitance != vec3{0, 0, 0}) paths.push_back({from, kNoElement, delay, exitance});
     }
 };
 
 /// Links, direct light and reflectance of one texel. Bounces leave from geometric normals.
 void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
                  const GatherOptions& options, uint32_t element, Links& links,
-                 std::vector<BackLink>& backs, uint64_t& ray_count) {
+                 std::vector<PathLink>& paths, uint64_t& ray_count) {
     const uint32_t first = texels.first_sample[element];
     const uint32_t point_count = texels.first_sample[element + 1] - first;
     const auto ray_total = static_cast<uint32_t>(links.rays_per_texel);
     const Samples samples(options.seed, element, 0);
-    const int max_backs = options.bounces == kConverged ? kUnlimited : options.bounces - 1;
+    const int max_vertices = options.bounces == kConverged ? kUnlimited : options.bounces - 1;
 
     vec3 delta{0, 0, 0}, sampled{0, 0, 0}, reflectance{0, 0, 0};
     std::vector<Outlook> outlooks;
@@ -59,13 +59,14 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
         reflectance += diffuse_reflectance(world.scene, world.surfaces, texels.samples[p]);
     }
     LinkCollector collector{std::span(links.to).subspan(size_t{element} * ray_total, ray_total),
-                            backs, sampled, element};
+                            paths, sampled, element};
     for (uint32_t i = 0; i < ray_total; ++i) {
         const Samples::Draw draw = samples.draw(i, world.lights.samples_sky());
         const Outlook& from = pick(outlooks, draw.point);
         collector.ray = i;
         sampled += sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
-        gather_ray(world, map, from, samples, i, draw.hemisphere, max_backs, collector, ray_count);
+        gather_ray(world, map, from, samples, i, draw.hemisphere, max_vertices, collector,
+                   ray_count);
     }
     const float weight = 1 / static_cast<float>(point_count);
     links.direct[element] = delta * weight + sampled / static_cast<float>(ray_total);
@@ -73,9 +74,9 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
 }
 
 /// sum over links of exitance, for texels [begin, end): `result` = direct + G B.
-/// `exitance(delay)` is the B that a link over `delay` backs sees, null where it sees none.
+/// `exitance(delay)` is the B that a link over `delay` path vertices sees, null where it sees none.
 template <class ExitanceOf>
-void apply(const Links& links, std::span<const size_t> first_back, ExitanceOf&& exitance,
+void apply(const Links& links, std::span<const size_t> first_path, ExitanceOf&& exitance,
            int reflections, std::vector<vec3>& irradiance) {
     const auto ray_total = static_cast<size_t>(links.rays_per_texel);
     const float weight = 1 / static_cast<float>(ray_total);
@@ -87,8 +88,8 @@ void apply(const Links& links, std::span<const size_t> first_back, ExitanceOf&& 
                 for (size_t i = 0; i < ray_total; ++i)
                     if (const uint32_t to = links.to[e * ray_total + i]; to != kNoElement)
                         sum += (*fronts)[to];
-            for (size_t i = first_back[e]; i < first_back[e + 1]; ++i) {
-                const BackLink& link = links.backs[i];
+            for (size_t i = first_path[e]; i < first_path[e + 1]; ++i) {
+                const PathLink& link = links.paths[i];
                 if (link.to == kNoElement) {
                     if (link.delay < reflections) sum += link.weight;
                 } else if (const std::vector<vec3>* behind = exitance(link.delay)) {
@@ -100,9 +101,9 @@ void apply(const Links& links, std::span<const size_t> first_back, ExitanceOf&& 
     });
 }
 
-std::vector<size_t> back_offsets(const Links& links) {
+std::vector<size_t> path_offsets(const Links& links) {
     std::vector<size_t> first(links.direct.size() + 1, 0);
-    for (const BackLink& link : links.backs) ++first[link.from + 1];
+    for (const PathLink& link : links.paths) ++first[link.from + 1];
     for (size_t e = 1; e < first.size(); ++e) first[e] += first[e - 1];
     return first;
 }
@@ -121,12 +122,12 @@ double total(const std::vector<vec3>& values) {
 GatherCache solve_bounces(const Links& links, int bounces) {
     GatherCache cache;
     cache.bounces = bounces;
-    const std::vector<size_t> first_back = back_offsets(links);
+    const std::vector<size_t> first_path = path_offsets(links);
     std::vector<vec3> irradiance = links.direct;
     for (int n = 0; n < bounces; ++n) {
         if (n > 0)
             apply(
-                links, first_back,
+                links, first_path,
                 [&](int delay) -> const std::vector<vec3>* {
                     const int k = n - 1 - delay;
                     return k >= 0 ? &cache.exitance_by_bounces[static_cast<size_t>(k)] : nullptr;
@@ -145,14 +146,14 @@ GatherCache solve_to_convergence(const Links& links) {
     constexpr double kRemaining = 1e-4;  // of the exitance; a tenth of what the contract asks
     constexpr int kMaxIterations = 2000;
     GatherCache cache;
-    const std::vector<size_t> first_back = back_offsets(links);
+    const std::vector<size_t> first_path = path_offsets(links);
     std::vector<vec3> irradiance = links.direct;
     cache.exitance.resize(irradiance.size());
     reflect(links, irradiance, cache.exitance);
     double before = total(cache.exitance), gain_before = before;
     for (cache.bounces = 1; cache.bounces < kMaxIterations; ++cache.bounces) {
         apply(
-            links, first_back, [&](int) { return &cache.exitance; }, kMaxIterations, irradiance);
+            links, first_path, [&](int) { return &cache.exitance; }, kMaxIterations, irradiance);
         reflect(links, irradiance, cache.exitance);
         const double now = total(cache.exitance);
         const double gain = now - before;
@@ -174,7 +175,7 @@ Result<Links> trace_links(const World& world, const Texels& texels, const TexelM
     links.to.assign(count * static_cast<size_t>(links.rays_per_texel), kNoElement);
     links.direct.resize(count);
     links.reflectance.resize(count);
-    std::vector<std::vector<BackLink>> backs((count + kGrain - 1) / kGrain);
+    std::vector<std::vector<PathLink>> paths((count + kGrain - 1) / kGrain);
     std::atomic<uint64_t> ray_count = 0;
     std::atomic<size_t> done = 0;
 
@@ -183,7 +184,7 @@ Result<Links> trace_links(const World& world, const Texels& texels, const TexelM
         uint64_t rays = 0;
         for (size_t e = begin; e < end; ++e)
             trace_texel(world, texels, map, options, static_cast<uint32_t>(e), links,
-                        backs[begin / kGrain], rays);
+                        paths[begin / kGrain], rays);
         ray_count += rays;
         monitor("light between texels",
                 static_cast<double>(done += end - begin) / static_cast<double>(count));
@@ -191,8 +192,8 @@ Result<Links> trace_links(const World& world, const Texels& texels, const TexelM
     if (monitor.cancelled())
         return fail(Errc::cancelled, "stopped while tracing light between texels");
 
-    for (const auto& block : backs)
-        links.backs.insert(links.backs.end(), block.begin(), block.end());
+    for (const auto& block : paths)
+        links.paths.insert(links.paths.end(), block.begin(), block.end());
     links.ray_count = ray_count;
     return links;
 }

@@ -5,9 +5,9 @@
 
 namespace aglow::transport::cpu {
 
-/// A link that leads over one or more backs: `delay` of them, with the product of their
-/// reflectances. To no texel (kNoElement): light that reached back number `delay` directly.
-struct BackLink {
+/// A link that leads over one or more path vertices: `delay` of them, with the product of their
+/// reflectances. To no texel (kNoElement): light that reached vertex number `delay` directly.
+struct PathLink {
     uint32_t from;
     uint32_t to;
     int delay;
@@ -19,7 +19,7 @@ struct BackLink {
 struct Links {
     int rays_per_texel = 0;
     std::vector<uint32_t> to;       ///< [element_count * rays_per_texel] front texel, or kNoElement
-    std::vector<BackLink> backs;    ///< by `from`
+    std::vector<PathLink> paths;    ///< by `from`
     std::vector<vec3> direct;       ///< [element_count] direct irradiance, lux
     std::vector<vec3> reflectance;  ///< [element_count] mean diffuse reflectance
     uint64_t ray_count = 0;

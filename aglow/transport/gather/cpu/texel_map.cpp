@@ -27,6 +27,9 @@ TexelMap::TexelMap(const Surfaces& surfaces, const Texels& texels)
                 break;
             }
         }
+    if (texels.divided.empty()) return;
+    for (uint32_t& element : nearest_)
+        if (element != kNoElement && texels.divided[element]) element = kNoElement;
 }
 
 }  // namespace aglow::transport::cpu

@@ -11,7 +11,8 @@ class TexelMap {
 public:
     TexelMap(const Surfaces& surfaces, const Texels& texels);
 
-    /// Element under the point, or kNoElement where the surface has no texels.
+    /// Element whose light is that of the point's front, or kNoElement where there is none: no
+    /// texel covers it, or a wall divides the one that does.
     uint32_t element(SurfacePoint at) const {
         const Corner& c = corners_[at.triangle];
         const vec2 uv = c.origin + c.along_1 * at.barycentrics.x + c.along_2 * at.barycentrics.y;
