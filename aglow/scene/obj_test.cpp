@@ -158,8 +158,10 @@ TEST_CASE("materials are looked for in the OBJ's own folder and nowhere else") {
     const Folder folder;
     fs::create_directory(folder.path / "inner");
     folder.put("secret.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
-    for (const std::string name : {"../secret.mtl", (folder.path / "secret.mtl").string().c_str(),
-                                   "..\\secret.mtl", "/dev/zero"}) {
+    const std::string absolute = (folder.path / "secret.mtl").string();
+    const std::vector<std::string> names = {"../secret.mtl", absolute, "..\\secret.mtl",
+                                            "/dev/zero"};
+    for (const std::string& name : names) {
         CAPTURE(name);
         REQUIRE(write_file(folder.path / "inner" / "x.obj",
                            std::string_view("mtllib " + name + "\n" + kSquare + "f 1 2 3\n")));

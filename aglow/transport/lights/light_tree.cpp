@@ -12,24 +12,6 @@ float axis_of(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z
 
 float safe_acos(float c) { return std::acos(std::clamp(c, -1.0f, 1.0f)); }
 
-/// An angle in [0, pi] by its sine and cosine, so that bounds need no inverse functions.
-struct Angle {
-    float sine, cosine;
-};
-
-Angle angle_of_cosine(float c) {
-    const float cosine = std::clamp(c, -1.0f, 1.0f);
-    return {std::sqrt(1 - cosine * cosine), cosine};
-}
-
-Angle angle_of_sine(float s) { return {s, std::sqrt(std::max(0.0f, 1 - s * s))}; }
-
-/// max(0, a - b)
-Angle subtract(Angle a, Angle b) {
-    if (a.cosine >= b.cosine) return {0, 1};
-    return {a.sine * b.cosine - a.cosine * b.sine, a.cosine * b.cosine + a.sine * b.sine};
-}
-
 struct Cone {
     vec3 axis;
     float half_angle;
@@ -60,19 +42,31 @@ LightTree::LightTree(std::span<const TreeEmitter> emitters) {
 }
 
 // Median splits along the longest axis of the centres: depth stays logarithmic whatever the input.
-uint32_t LightTree::build(std::span<uint32_t> order, std::span<const TreeEmitter> emitters) {
+LightTree::Extent LightTree::build(std::span<uint32_t> order,
+                                   std::span<const TreeEmitter> emitters) {
     const auto index = static_cast<uint32_t>(nodes_.size());
     nodes_.emplace_back();
     if (order.size() == 1) {
         const TreeEmitter& e = emitters[order[0]];
-        nodes_[index] = {e.bounds, e.normal, 0, 0, 1, e.power, e.two_sided, order[0], 0, 0};
+        const vec3 size = e.bounds.size();
+        nodes_[index] = {e.bounds.center(),
+                         dot(size, size) / 4,
+                         e.normal,
+                         0,
+                         e.power,
+                         e.two_sided,
+                         order[0],
+                         0,
+                         0};
         leaf_of_[order[0]] = index;
-        return index;
+        return {index, e.bounds, e.normal, 0};
     }
     Box centers;
     for (const uint32_t i : order) centers.add(emitters[i].bounds.center());
-    const vec3 size = centers.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const vec3 spread = centers.size();
+    const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0
+                     : spread.y >= spread.z                       ? 1
+                                                                  : 2;
     const size_t half = order.size() / 2;
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
                      [&](uint32_t a, uint32_t b) {
@@ -80,49 +74,49 @@ uint32_t LightTree::build(std::span<uint32_t> order, std::span<const TreeEmitter
                          const float cb = axis_of(emitters[b].bounds.center(), axis);
                          return ca != cb ? ca < cb : a < b;
                      });
-    const uint32_t left = build(order.first(half), emitters);
-    const uint32_t right = build(order.subspan(half), emitters);
+    const Extent left = build(order.first(half), emitters);
+    const Extent right = build(order.subspan(half), emitters);
 
-    const Node& a = nodes_[left];
-    const Node& b = nodes_[right];
-    const Cone cone = unite({a.axis, a.half_angle}, {b.axis, b.half_angle});
-    Box bounds = a.bounds;
-    bounds.add(b.bounds.lo);
-    bounds.add(b.bounds.hi);
-    nodes_[index] = {bounds,
+    const Cone cone = unite({left.axis, left.half_angle}, {right.axis, right.half_angle});
+    Box bounds = left.bounds;
+    bounds.add(right.bounds.lo);
+    bounds.add(right.bounds.hi);
+    Node& a = nodes_[left.node];
+    Node& b = nodes_[right.node];
+    a.parent = b.parent = index;
+    const vec3 size = bounds.size();
+    nodes_[index] = {bounds.center(),
+                     dot(size, size) / 4,
                      cone.axis,
-                     cone.half_angle,
-                     std::sin(cone.half_angle),
-                     std::cos(cone.half_angle),
+                     cone.half_angle < kPi / 2 ? std::sin(cone.half_angle) : 2.0f,
                      a.power + b.power,
                      a.two_sided || b.two_sided,
                      0,
-                     right,
+                     right.node,
                      0};
-    nodes_[left].parent = nodes_[right].parent = index;
-    return index;
+    return {index, bounds, cone.axis, cone.half_angle};
 }
 
-// Power times upper bounds of both cosines over the squared distance. Inside the bounding sphere
-// neither cosine is bounded, and the distance is taken as the sphere's radius.
+// Power over the squared distance, times a bound of each cosine over the bounding sphere and the
+// cone of normals. Where the sphere is seen under the angle beta, cos(theta - beta) is positive
+// exactly where cos(theta) + sin(beta) is; with the cone's angle alpha, sin(alpha + beta) <=
+// sin(alpha) + sin(beta). These sums serve as the bounds: no light that can arrive gets
+// probability 0, and no angle has to be computed. Inside the sphere nothing is bounded, and the
+// distance is taken as its radius.
 float LightTree::importance(const Node& node, vec3 p, vec3 n) {
-    const vec3 to_light = node.bounds.center() - p;
+    const vec3 to_light = node.center - p;
     const float distance2 = dot(to_light, to_light);
-    const float radius2 = dot(node.bounds.size(), node.bounds.size()) / 4;
-    if (distance2 <= radius2) return node.power / std::max(radius2, 1e-30f);
+    if (distance2 <= node.radius2) return node.power / std::max(node.radius2, 1e-30f);
 
-    const float distance = std::sqrt(distance2);
-    const vec3 direction = to_light / distance;
-    const Angle bounding = angle_of_sine(std::sqrt(radius2 / distance2));
-    const float cos_receiver = subtract(angle_of_cosine(dot(n, direction)), bounding).cosine;
-    if (cos_receiver <= 0) return 0;
-
-    float cos_axis = -dot(node.axis, direction);
-    if (node.two_sided) cos_axis = std::abs(cos_axis);
-    const Angle beyond_cone = subtract(angle_of_cosine(cos_axis), {node.sin_half, node.cos_half});
-    const float cos_emitter = subtract(beyond_cone, bounding).cosine;
-    if (cos_emitter <= 0) return 0;
-    return node.power * cos_receiver * cos_emitter / distance2;
+    const float inverse2 = 1 / distance2;
+    const float inverse = std::sqrt(inverse2);
+    const float sin_bounding = std::sqrt(node.radius2 * inverse2);
+    const float receiver = dot(n, to_light) * inverse + sin_bounding;
+    const float cos_axis = -dot(node.axis, to_light) * inverse;
+    const float emitter =
+        (node.two_sided ? std::abs(cos_axis) : cos_axis) + node.sin_half + sin_bounding;
+    if (!(receiver > 0) || !(emitter > 0)) return 0;
+    return node.power * inverse2 * std::min(1.0f, receiver) * std::min(1.0f, emitter);
 }
 
 LightTree::Choice LightTree::draw(vec3 p, vec3 n, float u) const {

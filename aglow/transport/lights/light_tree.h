@@ -42,17 +42,24 @@ public:
 
 private:
     struct Node {
-        Box bounds;
+        vec3 center;  ///< of the bounding sphere
+        float radius2 = 0;
         vec3 axis = {0, 0, 1};  ///< of the cone that holds all normals
-        float half_angle = 0;   ///< of that cone, radians
-        float sin_half = 0, cos_half = 1;
+        float sin_half = 0;     ///< of that cone's half angle; 2 where it is beyond 90 degrees
         float power = 0;
         bool two_sided = false;
         uint32_t emitter = 0;  ///< leaf: which
         uint32_t right = 0;    ///< inner: second child (the first follows its parent); leaf: 0
         uint32_t parent = 0;
     };
-    uint32_t build(std::span<uint32_t> order, std::span<const TreeEmitter> emitters);
+    /// What building knows of a node and drawing does not need.
+    struct Extent {
+        uint32_t node;
+        Box bounds;
+        vec3 axis;
+        float half_angle;
+    };
+    Extent build(std::span<uint32_t> order, std::span<const TreeEmitter> emitters);
     static float importance(const Node& node, vec3 p, vec3 n);
 
     std::vector<Node> nodes_;

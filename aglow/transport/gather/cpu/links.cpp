@@ -40,7 +40,8 @@ struct LinkCollector {
     }
 };
 
-/// Links, direct light and reflectance of one texel. Bounces leave from geometric normals.
+/// Reflectance of one texel and, where it reflects at all, its links and direct light. Bounces
+/// leave from geometric normals.
 void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
                  const GatherOptions& options, uint32_t element, Links& links,
                  std::vector<PathLink>& paths, uint64_t& ray_count) {
@@ -50,13 +51,19 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
     const Samples samples(options.seed, element, 0);
     const int max_vertices = options.bounces == kConverged ? kUnlimited : options.bounces - 1;
 
-    vec3 delta{0, 0, 0}, sampled{0, 0, 0}, reflectance{0, 0, 0};
+    const float weight = 1 / static_cast<float>(point_count);
+    vec3 reflectance{0, 0, 0};
+    for (uint32_t p = first; p < first + point_count; ++p)
+        reflectance += diffuse_reflectance(world.scene, world.surfaces, texels.samples[p]) * weight;
+    links.reflectance[element] = reflectance;
+    if (reflectance == vec3{0, 0, 0}) return;  // what arrives here never leaves
+
+    vec3 delta{0, 0, 0}, sampled{0, 0, 0};
     std::vector<Outlook> outlooks;
     outlooks.reserve(point_count);
     for (uint32_t p = first; p < first + point_count; ++p) {
         outlooks.emplace_back(vantage_on(world.surfaces, texels.samples[p], true));
         delta += delta_irradiance(world, outlooks.back().at, ray_count);
-        reflectance += diffuse_reflectance(world.scene, world.surfaces, texels.samples[p]);
     }
     LinkCollector collector{std::span(links.to).subspan(size_t{element} * ray_total, ray_total),
                             paths, sampled, element};
@@ -68,9 +75,7 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
         gather_ray(world, map, from, samples, i, draw.hemisphere, max_vertices, collector,
                    ray_count);
     }
-    const float weight = 1 / static_cast<float>(point_count);
     links.direct[element] = delta * weight + sampled / static_cast<float>(ray_total);
-    links.reflectance[element] = reflectance * weight;
 }
 
 /// sum over links of exitance, for texels [begin, end): `result` = direct + G B.
