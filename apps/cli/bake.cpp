@@ -8,6 +8,7 @@
 #include "solver_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace aglow::cli {
 namespace {
@@ -38,7 +39,7 @@ Table table(Options& o) {
          "NAME",
          "lightmap (default): MOZ_lightmap materials; unlit: base colour x light, for any viewer"},
         {"--exposure", number(&o.exposure, -100, 100), "EV",
-         "exposure of --as unlit in steps of two (default 0)"},
+         "exposure of --as unlit in steps of two (default: the median texel at middle brightness)"},
     };
     return rows;
 }
@@ -52,6 +53,18 @@ double mean_irradiance(const Baked& baked) {
         area += texel_area;
     }
     return area > 0 ? flux / area : 0;
+}
+
+/// Exposure that shows a surface of reflectance 1/2 at 0.4 under the median light of the texels
+/// that have any.
+float middle_exposure(const Baked& baked) {
+    std::vector<float> lux;
+    for (const Irradiance& value : baked.field.values)
+        if (const float e = luminance(value.total()); e > 0) lux.push_back(e);
+    if (lux.empty()) return 0;
+    const auto middle = lux.begin() + static_cast<std::ptrdiff_t>(lux.size() / 2);
+    std::nth_element(lux.begin(), middle, lux.end());
+    return std::log2(0.4f * kReferenceWhite / (0.5f * *middle / kPi));
 }
 
 size_t black_texels(const Baked& baked) {
@@ -105,7 +118,8 @@ Result<int> run(const Options& options, Console& console) {
            write_lit_gltf(baked.scene, baked.surfaces, baked.atlas, baked.texels, baked.lightmap,
                           options.output,
                           {.form = options.form,
-                           .exposure_ev = static_cast<float>(options.exposure.value_or(0)),
+                           .exposure_ev = options.exposure ? static_cast<float>(*options.exposure)
+                                                           : middle_exposure(baked),
                            .method = name(options.solver.method),
                            .json_settings = to_text(settings)}));
     const Json seconds = {{"load", rounded_seconds(load_seconds)},
