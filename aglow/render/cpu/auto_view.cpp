@@ -43,6 +43,22 @@ vec3 opening_of(vec3 miss_sum, int miss_count) {
     return {0, 0, 0};
 }
 
+/// Number of ray ends within a tenth of the box's size of its sides. Most of what one sees in a
+/// room is its walls; among scattered objects, ends lie all over.
+size_t on_walls(const Box& box, const std::array<std::vector<float>, 3>& ends) {
+    size_t count = 0;
+    for (size_t i = 0; i < ends[0].size(); ++i) {
+        const vec3 size = box.size();
+        const auto near = [&](float value, float lo, float hi, float extent) {
+            return value < lo + 0.1f * extent || value > hi - 0.1f * extent;
+        };
+        count += near(ends[0][i], box.lo.x, box.hi.x, size.x) ||
+                 near(ends[1][i], box.lo.y, box.hi.y, size.y) ||
+                 near(ends[2][i], box.lo.z, box.hi.z, size.z);
+    }
+    return count;
+}
+
 /// Looks all round from `p`: where `p` is inside a room, that room. Of the coordinates that rays
 /// end at, the outermost 2 % are left out: what a window shows is no part of the room.
 std::optional<Room> room_around(const RayScene& rays, vec3 p) {
@@ -62,11 +78,13 @@ std::optional<Room> room_around(const RayScene& rays, vec3 p) {
     }
     const size_t closed = ends[0].size();
     if (closed < kProbeRays * 7 / 10 || 4 * static_cast<size_t>(front) < 3 * closed) return {};
+    const std::array<std::vector<float>, 3> where = ends;
     for (auto& axis : ends) std::sort(axis.begin(), axis.end());
     const size_t skip = closed / 50, last = closed - 1 - skip;
-    return Room{{{ends[0][skip], ends[1][skip], ends[2][skip]},
-                 {ends[0][last], ends[1][last], ends[2][last]}},
-                opening_of(misses, kProbeRays - static_cast<int>(closed))};
+    const Box box{{ends[0][skip], ends[1][skip], ends[2][skip]},
+                  {ends[0][last], ends[1][last], ends[2][last]}};
+    if (on_walls(box, where) < closed * 6 / 10) return {};
+    return Room{box, opening_of(misses, kProbeRays - static_cast<int>(closed))};
 }
 
 /// The largest of the rooms that points about the middle of `box` stand in, none if fewer than
