@@ -5,7 +5,10 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <chrono>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 using namespace aglow;
@@ -55,6 +58,17 @@ TEST_CASE("parallel ranges cover every item once") {
     });
     CHECK(std::accumulate(visits.begin(), visits.end(), 0) == 1003);
     CHECK(*std::max_element(visits.begin(), visits.end()) == 1);
+}
+
+TEST_CASE("a thread limit of one keeps all work on the thread that asked for it") {
+    const ThreadLimit limit(1);
+    std::atomic<int> elsewhere = 0;
+    const auto caller = std::this_thread::get_id();
+    parallel_for(1000, 1, [&](size_t, size_t) {
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+        elsewhere += std::this_thread::get_id() != caller;
+    });
+    CHECK(elsewhere == 0);
 }
 
 TEST_CASE("sRGB coding is its own inverse and puts middle grey where the standard says") {

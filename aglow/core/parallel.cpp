@@ -16,15 +16,17 @@ void parallel_for(size_t count, size_t grain, const std::function<void(size_t, s
     });
 }
 
+// Constructed in place: a copy of a global_control is not registered, and the original's end would
+// lift the limit.
 struct ThreadLimit::Control {
+    explicit Control(size_t threads)
+        : limit(tbb::global_control::max_allowed_parallelism, threads) {}
     tbb::global_control limit;
 };
 
-ThreadLimit::ThreadLimit(int threads) {
-    const int wanted = threads > 0 ? threads : tbb::info::default_concurrency();
-    control_ = std::make_unique<Control>(Control{tbb::global_control(
-        tbb::global_control::max_allowed_parallelism, static_cast<size_t>(wanted))});
-}
+ThreadLimit::ThreadLimit(int threads)
+    : control_(std::make_unique<Control>(
+          static_cast<size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))) {}
 
 ThreadLimit::~ThreadLimit() = default;
 

@@ -28,8 +28,9 @@ Result<IrradianceField> gather_all(const World& world, const TexelMap& map,
     std::atomic<uint64_t> ray_count = 0, sample_count = 0;
     std::atomic<size_t> done = 0;
 
-    constexpr size_t kGrain = 16;
-    parallel_for(count, kGrain, [&](size_t begin, size_t end) {
+    // Few receivers are sensors, and each takes long.
+    const size_t grain = count < 1024 ? 1 : 16;
+    parallel_for(count, grain, [&](size_t begin, size_t end) {
         if (monitor.cancelled()) return;
         uint64_t rays = 0, samples = 0;
         std::vector<Receiver> points;
