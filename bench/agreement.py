@@ -7,7 +7,8 @@
 Two path-traced bakes P1, P2 of unlike seeds tell their own noise: rms(P1 - P2)^2 / 2 is the
 variance of each. What the gather bake G differs by is then
 sqrt((rms(G - P1)^2 + rms(G - P2)^2) / 2 - rms(P1 - P2)^2 / 2). The estimate is made at growing sample
-counts: it must stand still while the noise falls as 1 / sqrt(samples).
+counts: it must stand still while the noise falls as 1 / sqrt(samples). All bakes are told their samples
+instead of a quality, so that their texels have the same sample points.
 """
 import argparse
 import json
@@ -26,7 +27,7 @@ def parse_arguments():
     parser.add_argument("--scenes", default="cornell-box,corridor,living-room")
     parser.add_argument("--resolution", type=int, default=128)
     parser.add_argument("--samples", default="1024,4096", help="of the path-traced bakes")
-    parser.add_argument("--quality", default="high", help="of the gather bake")
+    parser.add_argument("--gather-samples", type=int, default=2048)
     parser.add_argument("--threads", type=int, default=2)
     return parser.parse_args()
 
@@ -46,8 +47,8 @@ def measure(arguments, name):
     out = arguments.out
     scene, gathered = out / f"{name}.glb", out / f"{name}_gather.glb"
     run_aglow(arguments, "scene", name, "-o", scene)
-    seconds = bake(arguments, scene, gathered, "--quality",
-                   arguments.quality)["seconds"]["total"]
+    seconds = bake(arguments, scene, gathered, "--samples",
+                   arguments.gather_samples)["seconds"]["total"]
     for samples in map(int, arguments.samples.split(",")):
         paths = [out / f"{name}_path_{samples}_{seed}.glb" for seed in (1, 2)]
         reports = [bake(arguments, scene, path, "--method", "path", "--samples", samples,
