@@ -195,10 +195,11 @@ int add_floats(Document& document, std::span<const float> values, const char* ty
     const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(values.data()),
                                          values.size_bytes());
     const int view = add_view(document, bytes, target);
-    return add_accessor(document, Json{{"bufferView", view},
-                                       {"componentType", kFloat},
-                                       {"count", values.size() / component_count(type)},
-                                       {"type", type}});
+    return add_accessor(document,
+                        Json{{"bufferView", view},
+                             {"componentType", kFloat},
+                             {"count", values.size() / std::max(size_t{1}, component_count(type))},
+                             {"type", type}});
 }
 
 int add_indices(Document& document, std::span<const uint32_t> indices, size_t vertex_count) {

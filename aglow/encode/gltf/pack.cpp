@@ -179,7 +179,7 @@ std::filesystem::path path_of_uri(std::string_view uri) {
     }
     const bool has_scheme = uri.find(':') != std::string_view::npos;
     if (has_scheme || name.find('\0') != std::string::npos) return {};
-    const auto path = std::filesystem::path(name).lexically_normal();
+    auto path = std::filesystem::path(name).lexically_normal();
     if (path.empty() || path.is_absolute() || *path.begin() == ".." || *path.begin() == ".")
         return {};
     return path;

@@ -70,7 +70,7 @@ struct Window {
 };
 
 Result<Window> checked_window(const Imf::Header& header, size_t file_bytes) {
-    const Imath::Box2i box = header.dataWindow();
+    const Imath::Box2i& box = header.dataWindow();
     const int64_t width = int64_t{box.max.x} - box.min.x + 1;
     const int64_t height = int64_t{box.max.y} - box.min.y + 1;
     if (width < 1 || height < 1) return fail(Errc::malformed, "the data window is empty");
@@ -135,7 +135,9 @@ void read_luminance_chroma(Bytes bytes, const Window& window, Image& image) {
 void convert_primaries(const Imf::Header& header, Image& image) {
     if (!Imf::hasChromaticities(header)) return;
     const Imf::Chromaticities from = Imf::chromaticities(header), rec709;
-    const auto close = [](Imath::V2f a, Imath::V2f b) { return (a - b).length() < 1e-3f; };
+    const auto close = [](const Imath::V2f& a, const Imath::V2f& b) {
+        return (a - b).length() < 1e-3f;
+    };
     if (close(from.red, rec709.red) && close(from.green, rec709.green) &&
         close(from.blue, rec709.blue) && close(from.white, rec709.white))
         return;
