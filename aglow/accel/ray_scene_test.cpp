@@ -12,7 +12,7 @@ using namespace aglow;
 namespace {
 
 /// A unit square in the plane y = 0 facing up, with texture coordinates.
-Scene square(AlphaMode mode, TextureImage image = {}) {
+Scene square(AlphaMode mode, const TextureImage& image = {}) {
     Scene scene;
     Material material;
     material.alpha_mode = mode;
