@@ -63,9 +63,6 @@ vec3 emitted_luminance(const Scene& scene, const Surfaces& surfaces, SurfacePoin
 float opacity(const Scene& scene, const Surfaces& surfaces,
               SurfacePoint at);  ///< 0..1; 0 or 1 for masks
 
-/// No real surface reflects more; light would not die out. Loaders warn where they clamp to it.
-inline constexpr float kMaxReflectance = 0.98f;
-
 vec3 position(const Surfaces& surfaces, SurfacePoint at);
 vec3 geometric_normal(const Surfaces& surfaces,
                       uint32_t triangle);  ///< unit; zero for a degenerate triangle

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/render/camera.h"
 
+#include "tests/quad.h"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -10,16 +12,7 @@ using namespace aglow;
 
 namespace {
 
-void add_quad(Primitive& primitive, vec3 a, vec3 b, vec3 c, vec3 d) {
-    const auto first = static_cast<uint32_t>(primitive.positions.size());
-    const vec3 normal = normalize(cross(b - a, c - a));
-    for (vec3 p : {a, b, c, d}) {
-        primitive.positions.push_back(p);
-        primitive.normals.push_back(normal);
-    }
-    primitive.triangles.push_back({first, first + 1, first + 2});
-    primitive.triangles.push_back({first, first + 2, first + 3});
-}
+using testing::add_quad;
 
 enum class Facing { inwards, outwards };
 

@@ -2,6 +2,7 @@
 #include "aglow/scene/image_file.h"
 
 #include "aglow/core/file.h"
+#include "tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -16,18 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-    fs::path path;
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "aglow-image-XXXXXX").string();
-        REQUIRE(::mkdtemp(name.data()) != nullptr);
-        path = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
+using Folder = testing::TemporaryFolder;
 
 /// Values over many orders of magnitude, with runs of equal pixels and black.
 Image test_image(int width, int height) {

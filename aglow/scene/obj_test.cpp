@@ -5,6 +5,7 @@
 #include "aglow/scene/image_file.h"
 #include "aglow/scene/load.h"
 #include "aglow/scene/obj/polygon.h"
+#include "tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -20,17 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-    fs::path path;
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "aglow-obj-XXXXXX").string();
-        REQUIRE(::mkdtemp(name.data()) != nullptr);
-        path = name;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
+struct Folder : testing::TemporaryFolder {
     void put(const char* name, std::string_view text) const {
         REQUIRE(write_file(path / name, text));
     }

@@ -69,6 +69,10 @@ struct MorphTarget {
     std::vector<vec3> normals;    ///< [vertex_count] displacements, or empty
 };
 
+/// No real surface reflects more; light would not die out. Surfaces clamp their diffuse reflectance
+/// to it, and loaders warn of it.
+inline constexpr float kMaxReflectance = 0.98f;
+
 /// Triangles of one material. Strips and fans are resolved into triangles; points and lines give
 /// a primitive without triangles.
 struct Primitive {

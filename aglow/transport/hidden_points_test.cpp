@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/transport/hidden_points.h"
 
+#include "tests/quad.h"
+
 #include <doctest/doctest.h>
 
 using namespace aglow;
 
 namespace {
 
-void add_quad(Primitive& p, vec3 a, vec3 b, vec3 c, vec3 d) {
-    const auto base = static_cast<uint32_t>(p.positions.size());
-    const vec3 n = normalize(cross(b - a, d - a));
-    for (const vec3 corner : {a, b, c, d}) {
-        p.positions.push_back(corner);
-        p.normals.push_back(n);
-        p.lightmap_uvs.push_back({0, 0});
-    }
-    p.triangles.push_back({base, base + 1, base + 2});
-    p.triangles.push_back({base, base + 2, base + 3});
-}
+using testing::add_quad;
 
 /// A floor of 4 x 4 m that fills an atlas of 8 x 8 texels, and whatever stands on it.
 struct Floor {

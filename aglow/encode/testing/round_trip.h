@@ -5,6 +5,7 @@
 #include "aglow/encode/lit_gltf.h"
 #include "aglow/encode/testing/cell_layout.h"
 #include "aglow/scene/load.h"
+#include "tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -16,22 +17,7 @@
 
 namespace aglow::encode::testing {
 
-/// A folder that goes with the test.
-struct TemporaryFolder {
-    std::filesystem::path path;
-    TemporaryFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "aglow-encode-XXXXXX").string();
-        REQUIRE(::mkdtemp(name.data()) != nullptr);
-        path = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
+using aglow::testing::TemporaryFolder;
 
 inline Scene load(const std::filesystem::path& path) {
     const auto bytes = read_file(path);

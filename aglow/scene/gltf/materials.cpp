@@ -10,10 +10,6 @@
 namespace aglow::gltf {
 namespace {
 
-/// The bound that surfaces clamp reflectance to (kMaxReflectance of aglow/mesh/surfaces.h, which
-/// a scene must not know about): above it the loader warns.
-constexpr float kClampedReflectance = 0.98f;
-
 /// What reading one material needs to know besides its JSON.
 struct Reader {
     std::span<const Texture> textures;
@@ -191,10 +187,10 @@ void warn_of_reflectance(Scene& scene) {
         const bool textured_metal = material.metallic_roughness_texture.texture >= 0;
         const float metallic = textured_metal ? 0 : material.metallic;
         const float reflectance = std::max({color.x, color.y, color.z}) * (1 - metallic);
-        if (reflectance > kClampedReflectance)
+        if (reflectance > kMaxReflectance)
             scene.warnings.push_back(fmt::format(
                 "{}: reflectance {:.3g} is clamped to {} so that light dies out",
-                element_name("material", i, material.name), reflectance, kClampedReflectance));
+                element_name("material", i, material.name), reflectance, kMaxReflectance));
     }
 }
 

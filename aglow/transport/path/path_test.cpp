@@ -3,6 +3,7 @@
 
 #include "aglow/core/parallel.h"
 #include "aglow/core/random.h"
+#include "tests/quad.h"
 
 #include <doctest/doctest.h>
 
@@ -14,16 +15,7 @@ using namespace aglow;
 
 namespace {
 
-void add_quad(Primitive& primitive, vec3 a, vec3 b, vec3 c, vec3 d) {
-    const auto first = static_cast<uint32_t>(primitive.positions.size());
-    const vec3 normal = normalize(cross(b - a, c - a));
-    for (vec3 p : {a, b, c, d}) {
-        primitive.positions.push_back(p);
-        primitive.normals.push_back(normal);
-    }
-    primitive.triangles.push_back({first, first + 1, first + 2});
-    primitive.triangles.push_back({first, first + 2, first + 3});
-}
+using testing::add_quad;
 
 /// The cube [0, edge]^3 seen from inside.
 Primitive room(float edge) {
