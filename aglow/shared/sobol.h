@@ -70,7 +70,7 @@ AG_FN SobolPoint sobol_point(uint index) {
 }
 
 // The 24 leading bits as a float in [0, 1).
-AG_FN float unit_float(uint bits) { return float(bits >> 8u) * 5.9604645e-8f; }
+AG_FN float unit_float(uint bits) { return float(int(bits >> 8u)) * 5.9604645e-8f; }
 
 // Owen scrambling of a reversed coordinate, as a float in [0, 1): each binary digit is flipped
 // depending on the digits before it. Multiplications by even numbers carry from bit 0 upwards,

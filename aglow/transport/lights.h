@@ -8,6 +8,10 @@
 
 namespace aglow {
 
+namespace transport {
+class Emitters;
+}
+
 /// Unoccluded light that reaches a point from one sampled direction.
 struct LightSample {
     vec3 direction = {0, 0, 0};  ///< unit, from the point towards the light
@@ -34,16 +38,12 @@ public:
     size_t delta_count() const;
     LightSample delta(size_t i, vec3 p) const;
 
-    /// Emissive triangles: one point on one of them, chosen for a receiver at `p` with normal `n`
-    /// by importance (distance, orientation, power), from three uniform numbers in [0, 1).
+    /// Emissive triangles; kernels sample them by transport::EmittersSeen.
     bool has_emitters() const;
-    LightSample emitter(vec3 p, vec3 n, vec3 u) const;
+    const transport::Emitters& emitters() const;
     /// Luminance that leaves a hit emissive surface towards a ray that arrives on its front
     /// (`front`) or back. Alpha is not in it: it is the probability of the hit.
     vec3 emitted(const SurfacePoint& at, bool front) const;
-    /// 1/sr with which emitter() draws the direction from a receiver at (p, n) to the point `at`; 0
-    /// for triangles that do not emit.
-    float emitter_pdf(vec3 p, vec3 n, const SurfacePoint& at) const;
 
     /// Sky: a direction by luminance. has_sky() is false where it is black; samples_sky() is false
     /// for a uniform sky, which cosine-distributed rays sample best.

@@ -3,6 +3,7 @@
 
 #include "aglow/core/random.h"
 #include "aglow/shared/sobol.h"
+#include "aglow/transport/lights/emitters.h"
 #include "aglow/transport/lights/light_tree.h"
 #include "aglow/transport/lights/sky_distribution.h"
 #include "aglow/transport/lights/triangle_sampling.h"
@@ -34,9 +35,10 @@ double lambert(const vec3 (&t)[3]) {
 }
 
 double sampled(const vec3 (&t)[3], uint32_t count) {
+    const TriangleSampler sampler(t[0], t[1], t[2]);
     double sum = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        const auto s = sample_triangle(t[0], t[1], t[2], shared::owen_sobol_2d(i, 3));
+        const auto s = sampler.sample(shared::owen_sobol_2d(i, 3));
         if (!(s.pdf > 0)) continue;
         const vec3 p = t[0] * (1 - s.barycentrics.x - s.barycentrics.y) + t[1] * s.barycentrics.x +
                        t[2] * s.barycentrics.y;
@@ -123,6 +125,7 @@ TEST_CASE("many emitters light a point as the sum of their closed forms") {
     const Scene scene = emitter_scene(50);
     const Surfaces surfaces = pose(scene);
     const Lights lights(scene, surfaces, world_transforms(scene));
+    const EmittersSeen seen(lights.emitters(), {0, 0, 0}, {0, 0, 1});
     double expected = 0;
     for (uint32_t i = 0; i < surfaces.triangles.size(); ++i)
         expected +=
@@ -130,7 +133,7 @@ TEST_CASE("many emitters light a point as the sum of their closed forms") {
     double sum = 0;
     constexpr uint32_t kCount = 1 << 15;
     for (uint32_t i = 0; i < kCount; ++i) {
-        const LightSample s = lights.emitter({0, 0, 0}, {0, 0, 1}, shared::owen_sobol_3d(i, 1));
+        const LightSample s = seen.sample(shared::owen_sobol_3d(i, 1));
         sum += static_cast<double>(luminance(s.normal_irradiance) * std::max(0.0f, s.direction.z));
     }
     CHECK(sum / kCount == doctest::Approx(expected).epsilon(0.003));

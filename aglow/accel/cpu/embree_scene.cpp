@@ -3,6 +3,7 @@
 
 #include "aglow/shared/sobol.h"
 
+#include <algorithm>
 #include <bit>
 #include <new>
 
@@ -44,13 +45,33 @@ void filter_hit(const RTCFilterFunctionNArguments* args) {
     });
 }
 
-/// Shadow rays are traced one by one, so the context belongs to the ray.
 void filter_shadow(const RTCFilterFunctionNArguments* args) {
     auto& shadow = *reinterpret_cast<ShadowContext*>(args->context);
-    filter(args, [&](unsigned, uint32_t, float alpha) {
-        shadow.passing *= 1 - alpha;
-        return !(shadow.passing > 0);
+    filter(args, [&](unsigned i, uint32_t, float alpha) {
+        float& passing = shadow.passing[RTCRayN_id(args->ray, args->N, i)];
+        passing *= 1 - alpha;
+        return !(passing > 0);
     });
+}
+
+/// Puts up to a packet of rays into Embree's arrays and says which lanes hold one.
+void load(std::span<const Ray> rays, RTCRay8& packet, int (&valid)[kPacketSize]) {
+    for (size_t i = 0; i < kPacketSize; ++i) {
+        valid[i] = i < rays.size() ? -1 : 0;
+        const Ray& ray = rays[std::min(i, rays.size() - 1)];
+        packet.org_x[i] = ray.origin.x;
+        packet.org_y[i] = ray.origin.y;
+        packet.org_z[i] = ray.origin.z;
+        packet.dir_x[i] = ray.direction.x;
+        packet.dir_y[i] = ray.direction.y;
+        packet.dir_z[i] = ray.direction.z;
+        packet.tnear[i] = 0;
+        packet.tfar[i] = ray.far;
+        packet.time[i] = 0;
+        packet.mask[i] = 0xffffffffu;
+        packet.id[i] = static_cast<unsigned>(i);
+        packet.flags[i] = 0;
+    }
 }
 
 bool has_alpha(const Scene& scene, const SurfacePart& part) {
@@ -107,6 +128,47 @@ void EmbreeScene::attach(const Surfaces& surfaces, unsigned geometry_id) {
         rtcAttachGeometryByID(scene_, geometry, geometry_id);
     }
     rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::intersect(std::span<const Ray> rays, SurfaceHit* hits) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (; !rays.empty(); rays = rays.subspan(std::min(kPacketSize, rays.size()))) {
+        const auto packet_rays = rays.first(std::min(kPacketSize, rays.size()));
+        alignas(32) int valid[kPacketSize];
+        RTCRayHit8 packet;
+        load(packet_rays, packet.ray, valid);
+        std::fill_n(packet.hit.geomID, kPacketSize, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(packet.hit.instID[0], kPacketSize, RTC_INVALID_GEOMETRY_ID);
+        rtcIntersect8(valid, scene_, &context, &packet);
+        for (size_t i = 0; i < packet_rays.size(); ++i, ++hits) {
+            const unsigned geometry = packet.hit.geomID[i];
+            if (geometry == RTC_INVALID_GEOMETRY_ID) {
+                hits->distance = kInfinity;
+                continue;
+            }
+            const vec3 normal{packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]};
+            *hits = {
+                {triangle_of_[geometry][packet.hit.primID[i]], {packet.hit.u[i], packet.hit.v[i]}},
+                packet.ray.tfar[i],
+                dot(normal, packet_rays[i].direction) < 0};
+        }
+    }
+}
+
+void EmbreeScene::visibility(std::span<const Ray> rays, float* passing) const {
+    ShadowContext context;
+    rtcInitIntersectContext(&context.embree);
+    for (; !rays.empty(); rays = rays.subspan(std::min(kPacketSize, rays.size()))) {
+        const auto packet_rays = rays.first(std::min(kPacketSize, rays.size()));
+        alignas(32) int valid[kPacketSize];
+        RTCRay8 packet;
+        load(packet_rays, packet, valid);
+        std::fill_n(context.passing, kPacketSize, 1.0f);
+        rtcOccluded8(valid, scene_, &context.embree, &packet);
+        for (size_t i = 0; i < packet_rays.size(); ++i)
+            *passing++ = packet.tfar[i] < 0 ? 0 : context.passing[i];
+    }
 }
 
 EmbreeScene::~EmbreeScene() {

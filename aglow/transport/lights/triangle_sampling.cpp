@@ -23,9 +23,6 @@ bool is_far(vec3 a, vec3 b, vec3 c) {
 /// Steradians below which even double precision leaves the spherical construction.
 constexpr float kSmallestSolidAngle = 1e-6f;
 
-struct DVec {
-    double x, y, z;
-};
 DVec to_double(vec3 v) { return {v.x, v.y, v.z}; }
 DVec operator*(DVec a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 DVec operator+(DVec a, DVec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -35,35 +32,6 @@ DVec cross(DVec a, DVec b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 DVec normalize(DVec a) { return a * (1 / std::sqrt(dot(a, a))); }
-
-/// Barycentrics (of b and c) where the ray from the origin along `d` meets the triangle's plane,
-/// kept inside the triangle.
-vec2 project(vec3 a, vec3 b, vec3 c, DVec d) {
-    const DVec e1 = to_double(b) - to_double(a), e2 = to_double(c) - to_double(a);
-    const DVec s1 = cross(d, e2);
-    const double divisor = dot(s1, e1);
-    if (divisor == 0) return {1 / 3.0f, 1 / 3.0f};
-    const DVec s = to_double(a) * -1.0;
-    const double v = std::clamp(dot(s, s1) / divisor, 0.0, 1.0);
-    const double w = std::clamp(dot(d, cross(s, e1)) / divisor, 0.0, 1.0);
-    const double sum = std::max(1.0, v + w);
-    return {static_cast<float>(v / sum), static_cast<float>(w / sum)};
-}
-
-/// 1/sr of a point drawn evenly over the triangle's area; 0 where it is degenerate or edge-on.
-float area_pdf(vec3 a, vec3 b, vec3 c, vec2 at) {
-    const vec3 p = a * (1 - at.x - at.y) + b * at.x + c * at.y;
-    const vec3 twice_area = aglow::shared::cross(b - a, c - a);
-    const float projected = std::abs(aglow::shared::dot(twice_area, p)) / 2;
-    const float distance2 = aglow::shared::dot(p, p);
-    return projected > 0 ? distance2 * std::sqrt(distance2) / projected : 0;
-}
-
-TriangleSample sample_area(vec3 a, vec3 b, vec3 c, vec2 u) {
-    const float root = std::sqrt(u.x);
-    const vec2 at{root * (1 - u.y), root * u.y};
-    return {at, area_pdf(a, b, c, at)};
-}
 
 }  // namespace
 
@@ -75,47 +43,86 @@ float solid_angle(vec3 a, vec3 b, vec3 c) {
     return static_cast<float>(2 * std::atan2(numerator, denominator));
 }
 
-float triangle_pdf(vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
-    if (is_far(a, b, c)) return area_pdf(a, b, c, barycentrics);
-    const float omega = solid_angle(a, b, c);
-    return omega > kSmallestSolidAngle ? 1 / omega : area_pdf(a, b, c, barycentrics);
+TriangleSampler::TriangleSampler(vec3 a, vec3 b, vec3 c)
+    : a_(a), b_(b), c_(c), by_area_(is_far(a, b, c)) {
+    if (by_area_) return;
+    solid_angle_ = solid_angle(a, b, c);
+    by_area_ = !(solid_angle_ > kSmallestSolidAngle);
+    if (!by_area_) prepare_directions();
 }
 
-// The area of the sub-triangle (A, B, C') is u.x of the whole, which fixes C' on the arc from A to
-// C; u.y then picks a point on the arc from B to C'.
-TriangleSample sample_triangle(vec3 a, vec3 b, vec3 c, vec2 u) {
-    if (is_far(a, b, c)) return sample_area(a, b, c, u);
-    const float omega = solid_angle(a, b, c);
-    if (!(omega > kSmallestSolidAngle)) return sample_area(a, b, c, u);
+void TriangleSampler::prepare_directions() {
+    p_ = normalize(to_double(a_));
+    q_ = normalize(to_double(b_));
+    const DVec r = normalize(to_double(c_));
+    r_orthogonal_ = r - p_ * dot(r, p_);
+    const double length = std::sqrt(dot(r_orthogonal_, r_orthogonal_));
+    if (length == 0) {
+        by_area_ = true;
+        return;
+    }
+    r_orthogonal_ = r_orthogonal_ * (1 / length);
+    const DVec pq = cross(p_, q_), rp = cross(r, p_);
+    const double lengths = std::sqrt(std::max(dot(pq, pq) * dot(rp, rp), 1e-300));
+    alpha_ = std::acos(std::clamp(-dot(pq, rp) / lengths, -1.0, 1.0));
+    sin_alpha_ = std::sin(alpha_);
+    cos_alpha_ = std::cos(alpha_);
+    cos_pq_ = dot(p_, q_);
+}
 
-    const DVec p = normalize(to_double(a)), q = normalize(to_double(b)),
-               r = normalize(to_double(c));
-    const DVec pq = cross(p, q), rp = cross(r, p);
-    const double cos_alpha = -dot(pq, rp) / std::sqrt(std::max(dot(pq, pq) * dot(rp, rp), 1e-300));
-    const double alpha = std::acos(std::clamp(cos_alpha, -1.0, 1.0));
-    const double sin_alpha = std::sin(alpha);
-    const double cos_c = dot(p, q);
+float TriangleSampler::pdf(vec2 barycentrics) const {
+    return by_area_ ? area_pdf(barycentrics) : 1 / solid_angle_;
+}
 
-    const double area = static_cast<double>(u.x) * static_cast<double>(omega);
-    const double s = std::sin(area - alpha), t = std::cos(area - alpha);
-    const double uu = t - std::cos(alpha);
-    const double vv = s + sin_alpha * cos_c;
-    const double divisor = (vv * s + uu * t) * sin_alpha;
-    const double cos_b =
-        divisor == 0 ? 1
-                     : std::clamp(((vv * t - uu * s) * std::cos(alpha) - vv) / divisor, -1.0, 1.0);
-    const DVec r_orthogonal = r - p * dot(r, p);
-    const double r_length = std::sqrt(dot(r_orthogonal, r_orthogonal));
-    if (r_length == 0) return sample_area(a, b, c, u);
-    const DVec c_new =
-        p * cos_b + r_orthogonal * (std::sqrt(std::max(0.0, 1 - cos_b * cos_b)) / r_length);
+// The area of the sub-triangle (p, q, r') is u.x of the whole, which fixes r' on the arc from p to
+// r; u.y then picks a point on the arc from q to r'.
+TriangleSample TriangleSampler::sample(vec2 u) const {
+    if (by_area_) return sample_area(u);
+    const double turn = static_cast<double>(u.x) * static_cast<double>(solid_angle_) - alpha_;
+    const double s = std::sin(turn), t = std::cos(turn);
+    const double uu = t - cos_alpha_;
+    const double vv = s + sin_alpha_ * cos_pq_;
+    const double divisor = (vv * s + uu * t) * sin_alpha_;
+    const double cos_arc =
+        divisor == 0 ? 1 : std::clamp(((vv * t - uu * s) * cos_alpha_ - vv) / divisor, -1.0, 1.0);
+    const DVec r = p_ * cos_arc + r_orthogonal_ * std::sqrt(std::max(0.0, 1 - cos_arc * cos_arc));
 
-    const double z = 1 - static_cast<double>(u.y) * (1 - dot(c_new, q));
-    const DVec o = c_new - q * dot(c_new, q);
+    const double cos_qr = dot(r, q_);
+    const double z = 1 - static_cast<double>(u.y) * (1 - cos_qr);
+    const DVec o = r - q_ * cos_qr;
     const double o_length = std::sqrt(dot(o, o));
     const DVec direction =
-        o_length == 0 ? q : q * z + o * (std::sqrt(std::max(0.0, 1 - z * z)) / o_length);
-    return {project(a, b, c, direction), 1 / omega};
+        o_length == 0 ? q_ : q_ * z + o * (std::sqrt(std::max(0.0, 1 - z * z)) / o_length);
+    return {project(direction), 1 / solid_angle_};
+}
+
+/// Barycentrics (of b and c) where the ray from the receiver along `direction` meets the
+/// triangle's plane, kept inside the triangle.
+vec2 TriangleSampler::project(DVec direction) const {
+    const DVec a = to_double(a_), e1 = to_double(b_) - a, e2 = to_double(c_) - a;
+    const DVec s1 = cross(direction, e2);
+    const double divisor = dot(s1, e1);
+    if (divisor == 0) return {1 / 3.0f, 1 / 3.0f};
+    const DVec s = a * -1.0;
+    const double v = std::clamp(dot(s, s1) / divisor, 0.0, 1.0);
+    const double w = std::clamp(dot(direction, cross(s, e1)) / divisor, 0.0, 1.0);
+    const double sum = std::max(1.0, v + w);
+    return {static_cast<float>(v / sum), static_cast<float>(w / sum)};
+}
+
+/// 1/sr of a point drawn evenly over the triangle's area; 0 where it is degenerate or edge-on.
+float TriangleSampler::area_pdf(vec2 at) const {
+    const vec3 p = a_ * (1 - at.x - at.y) + b_ * at.x + c_ * at.y;
+    const vec3 twice_area = aglow::shared::cross(b_ - a_, c_ - a_);
+    const float projected = std::abs(aglow::shared::dot(twice_area, p)) / 2;
+    const float distance2 = aglow::shared::dot(p, p);
+    return projected > 0 ? distance2 * std::sqrt(distance2) / projected : 0;
+}
+
+TriangleSample TriangleSampler::sample_area(vec2 u) const {
+    const float root = std::sqrt(u.x);
+    const vec2 at{root * (1 - u.y), root * u.y};
+    return {at, area_pdf(at)};
 }
 
 }  // namespace aglow::transport

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "aglow/transport/gather/cpu/samples.h"
 #include "aglow/transport/irradiance.h"
+#include "aglow/transport/lights/emitters.h"
 
 namespace aglow::transport::cpu {
 
@@ -22,19 +24,35 @@ Vantage vantage_on(const Surfaces& surfaces, SurfacePoint at, bool front);
 /// Irradiance from point, spot and directional lights. Adds the rays it traces to `ray_count`.
 vec3 delta_irradiance(const World& world, const Vantage& at, uint64_t& ray_count);
 
-/// One-sample estimates of the irradiance from emissive triangles and from a sky that is sampled by
-/// luminance: the part of each that the balance heuristic does not leave to cosine-distributed
-/// rays, which bring sky_seen() and emission_seen().
-/// Source  Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
-///         SIGGRAPH 1995.
-vec3 sampled_irradiance(const World& world, const Vantage& at, vec3 u_emitter, vec2 u_sky,
-                        uint64_t& ray_count);
+/// Shadow rays that are traced together, with the irradiance that each lets through.
+class ShadowRays {
+public:
+    /// Adds one-sample estimates of the irradiance from emissive triangles and from a sky that is
+    /// sampled by luminance: the part of each that the balance heuristic does not leave to
+    /// cosine-distributed rays, which bring sky_seen() and emission_seen().
+    /// At most kBatch times between calls of trace().
+    /// Source  Veach & Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
+    ///         SIGGRAPH 1995.
+    void add(const World& world, const Vantage& at, const EmittersSeen& emitters, vec3 u_emitter,
+             vec2 u_sky);
+
+    /// The sum of what arrives; forgets the rays.
+    vec3 trace(const World& world, uint64_t& ray_count);
+
+private:
+    void add(const Vantage& at, const LightSample& light);
+
+    static constexpr size_t kRoom = 2 * kBatch;
+    Ray rays_[kRoom];
+    vec3 irradiance_[kRoom];
+    size_t count_ = 0;
+};
 
 /// Irradiance that a cosine-distributed ray from `at` along `direction` stands for, weighted by the
 /// balance heuristic, where it leaves the scene ...
 vec3 sky_seen(const World& world, const Vantage& at, vec3 direction);
 /// ... and where it meets an emissive surface.
-vec3 emission_seen(const World& world, const Vantage& at, vec3 direction, SurfacePoint hit,
-                   bool front);
+vec3 emission_seen(const World& world, const Vantage& at, const EmittersSeen& emitters,
+                   vec3 direction, SurfacePoint hit, bool front);
 
 }  // namespace aglow::transport::cpu

@@ -8,8 +8,6 @@
 namespace aglow::transport::cpu {
 namespace {
 
-constexpr uint32_t kBatch = 16;  // rays whose mean is one observation of the spread
-
 /// Receives what the rays of one receiver find.
 struct Collector {
     const GatherCache& cache;
@@ -17,6 +15,7 @@ struct Collector {
     vec3 direct_sum{0, 0, 0};
     vec3 indirect_sum{0, 0, 0};
 
+    void ray(uint32_t) {}
     void direct(vec3 irradiance) { direct_sum += irradiance; }
     void texel(int delay, uint32_t element, vec3 weight) {
         if (bounces == kConverged) {
@@ -32,7 +31,7 @@ struct Collector {
     }
 };
 
-/// Standard error of the mean of batches, from their spread.
+/// Standard error of the mean of all samples, from the spread of the means of batches.
 class Spread {
 public:
     void add(double batch_mean) {
@@ -65,30 +64,24 @@ Gathered gather_points(const World& world, const TexelMap& map, const GatherCach
     std::vector<Outlook> outlooks;
     outlooks.reserve(points.size());
     for (const Receiver& point : points) {
-        outlooks.emplace_back(vantage_of(point));
+        outlooks.emplace_back(world, vantage_of(point));
         delta += delta_irradiance(world, outlooks.back().at, ray_count);
     }
     delta = delta / static_cast<float>(points.size());
 
+    const Gathering gathering{world, map, samples, outlooks, max_vertices, ray_count};
     Collector collector{cache, options.bounces};
     Spread spread;
     uint32_t done = 0;
     for (auto round = static_cast<uint32_t>(options.min_samples); done < max_samples;
          round = done * 2) {
-        for (const uint32_t end = std::min(round, max_samples); done < end;) {
+        while (done < std::min(round, max_samples)) {
             const vec3 before = collector.direct_sum + collector.indirect_sum;
-            const uint32_t batch_end = std::min(done + kBatch, end), batch_begin = done;
-            for (; done < batch_end; ++done) {
-                const Samples::Draw draw = samples.draw(done, world.lights.samples_sky());
-                const Outlook& from = pick(outlooks, draw.point);
-                collector.direct_sum +=
-                    sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
-                if (looks_around)
-                    gather_ray(world, map, from, samples, done, draw.hemisphere, max_vertices,
-                               collector, ray_count);
-            }
+            const uint32_t count = std::min(kBatch, max_samples - done);
+            gather_batch(gathering, done, count, looks_around, collector);
+            done += count;
             const vec3 gained = collector.direct_sum + collector.indirect_sum - before;
-            spread.add(static_cast<double>(luminance(gained)) / (batch_end - batch_begin));
+            spread.add(static_cast<double>(luminance(gained)) / count);
         }
         const vec3 sum = collector.direct_sum + collector.indirect_sum;
         const float mean = luminance(delta + sum / static_cast<float>(done));

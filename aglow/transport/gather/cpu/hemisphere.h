@@ -1,61 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "aglow/accel/cpu/embree_scene.h"
-#include "aglow/core/random.h"
 #include "aglow/shared/sampling.h"
-#include "aglow/shared/sobol.h"
 #include "aglow/transport/gather/cpu/direct_light.h"
+#include "aglow/transport/gather/cpu/samples.h"
 #include "aglow/transport/gather/cpu/texel_map.h"
 
 #include <algorithm>
-#include <iterator>
 #include <span>
 
 namespace aglow::transport::cpu {
 
-/// The random numbers of one receiver: stratified ones for its own samples, a plain stream for
-/// the rare paths that go on behind a surface.
-class Samples {
-public:
-    struct Draw {
-        vec2 hemisphere;
-        float point;  ///< which of the receiver's points: stratified together with the others
-        vec3 emitter;
-        vec2 sky;
-    };
-    Samples(uint64_t seed, uint32_t receiver, uint32_t purpose)
-        : seed_(shared::hash_pair(
-              shared::hash_pair(static_cast<uint32_t>(mix_bits(seed)), receiver), purpose)) {
-        for (uint32_t i = 0; i < std::size(scramble_); ++i)
-            scramble_[i] = shared::hash_pair(seed_, i);
-    }
-    /// Hemisphere, emitter and sky estimates are summed, so they may share coordinates.
-    Draw draw(uint32_t i, bool with_sky) const {
-        const shared::SobolPoint p = shared::sobol_point(i);
-        Draw result;
-        result.hemisphere = {shared::owen_scramble(p.x, scramble_[0]),
-                             shared::owen_scramble(p.y, scramble_[1])};
-        result.point = shared::owen_scramble(p.z, scramble_[2]);
-        result.emitter = {shared::owen_scramble(p.w, scramble_[3]),
-                          shared::owen_scramble(p.x, scramble_[4]),
-                          shared::owen_scramble(p.y, scramble_[5])};
-        result.sky = with_sky ? vec2{shared::owen_scramble(p.x, scramble_[6]),
-                                     shared::owen_scramble(p.y, scramble_[7])}
-                              : vec2{0, 0};
-        return result;
-    }
-    Pcg32 path(uint32_t i) const { return Pcg32(seed_, i); }
-
-private:
-    uint32_t seed_;
-    uint32_t scramble_[8];
-};
-
-/// A vantage and the frame about its normal.
+/// A vantage, the frame about its normal and what emits as seen from there.
 struct Outlook {
     Vantage at;
     Frame frame;
-    explicit Outlook(const Vantage& vantage) : at(vantage), frame(vantage.normal) {}
+    EmittersSeen emitters;
+    Outlook(const World& world, const Vantage& vantage)
+        : at(vantage),
+          frame(vantage.normal),
+          emitters(world.lights.emitters(), vantage.origin, vantage.normal) {}
 };
 
 /// The outlook that a number in [0, 1) picks.
@@ -64,8 +28,9 @@ inline const Outlook& pick(std::span<const Outlook> outlooks, float u) {
     return outlooks[std::min(i, outlooks.size() - 1)];
 }
 
-/// What a hemisphere ray finds, told to a visitor with three members:
-///   direct(irradiance)           sky or emission seen from the receiver itself
+/// What hemisphere rays find, told to a visitor with four members:
+///   ray(i)                       what follows is of sample i
+///   direct(irradiance)           light that arrives at the receiver from what emits
 ///   texel(delay, element, w)     light of a texel, weighted by w, after `delay` path vertices
 ///   light(delay, exitance)       light that reached path vertex number `delay` (0: the first)
 ///   directly
@@ -74,61 +39,106 @@ inline const Outlook& pick(std::span<const Outlook> outlooks, float u) {
 /// are followed; kUnlimited leaves the end to Russian roulette.
 inline constexpr int kUnlimited = -1;
 
+/// What all rays of one receiver share.
+struct Gathering {
+    const World& world;
+    const TexelMap& map;
+    const Samples& samples;
+    std::span<const Outlook> outlooks;
+    int max_vertices;
+    uint64_t& ray_count;
+
+    uint32_t element(const accel::cpu::SurfaceHit& hit) const {
+        return hit.front ? map.element(hit.at) : kNoElement;
+    }
+};
+
 template <class Visitor>
-void follow_path(const World& world, const TexelMap& map, accel::cpu::SurfaceHit hit, Pcg32 random,
-                 int max_vertices, Visitor&& visitor, uint64_t& ray_count) {
+void follow_path(const Gathering& g, accel::cpu::SurfaceHit hit, Pcg32 random, Visitor&& visitor) {
+    const World& world = g.world;
+    ShadowRays shadows;
     vec3 weight{1, 1, 1};
-    for (int delay = 0; max_vertices == kUnlimited || delay < max_vertices; ++delay) {
+    for (int delay = 0; g.max_vertices == kUnlimited || delay < g.max_vertices; ++delay) {
         weight *= diffuse_reflectance(world.scene, world.surfaces, hit.at);
-        const Vantage at = vantage_on(world.surfaces, hit.at, hit.front);
+        const Outlook from(world, vantage_on(world.surfaces, hit.at, hit.front));
+        const Vantage& at = from.at;
         const vec3 u_emitter{random.uniform(), random.uniform(), random.uniform()};
         const vec2 u_sky{random.uniform(), random.uniform()};
-        visitor.light(delay, weight * (delta_irradiance(world, at, ray_count) +
-                                       sampled_irradiance(world, at, u_emitter, u_sky, ray_count)));
-        if (max_vertices == kUnlimited) {
+        shadows.add(world, at, from.emitters, u_emitter, u_sky);
+        const vec3 delta = delta_irradiance(world, at, g.ray_count);
+        visitor.light(delay, weight * (delta + shadows.trace(world, g.ray_count)));
+        if (g.max_vertices == kUnlimited) {
             // Weights stay at or below 1, so that links pass on no more light than there is.
             const float survival = shared::max(weight.x, shared::max(weight.y, weight.z));
             if (!(random.uniform() < survival)) return;
             weight *= 1 / survival;
         }
         const vec2 u{random.uniform(), random.uniform()};
-        const vec3 direction = Frame(at.normal).to_world(shared::cosine_hemisphere(u));
-        ++ray_count;
+        const vec3 direction = from.frame.to_world(shared::cosine_hemisphere(u));
+        ++g.ray_count;
         if (!world.rays.cpu().intersect(at.origin, direction, kInfinity, hit)) {
             visitor.light(delay, weight * sky_seen(world, at, direction));
             return;
         }
-        if (world.lights.has_emitters())
-            visitor.light(delay, weight * emission_seen(world, at, direction, hit.at, hit.front));
-        const uint32_t element = hit.front ? map.element(hit.at) : kNoElement;
-        if (element != kNoElement) {
+        visitor.light(
+            delay, weight * emission_seen(world, at, from.emitters, direction, hit.at, hit.front));
+        if (const uint32_t element = g.element(hit); element != kNoElement) {
             visitor.texel(delay + 1, element, weight);
             return;
         }
     }
 }
 
-/// Sends ray `i` of a receiver from one of its points and tells the visitor what it finds.
+/// Takes samples [first, first + count) of a receiver, `count` up to kBatch: samples what emits,
+/// and, if it `looks_around`, sends rays over the hemisphere; tells the visitor what they find.
 template <class Visitor>
-void gather_ray(const World& world, const TexelMap& map, const Outlook& from,
-                const Samples& samples, uint32_t i, vec2 u, int max_vertices, Visitor&& visitor,
-                uint64_t& ray_count) {
-    const Vantage& at = from.at;
-    const vec3 direction = from.frame.to_world(shared::cosine_hemisphere(u));
-    if (!(dot(direction, at.geometric_normal) > 0)) return;
-    ++ray_count;
-    accel::cpu::SurfaceHit hit;
-    if (!world.rays.cpu().intersect(at.origin, direction, kInfinity, hit)) {
-        visitor.direct(sky_seen(world, at, direction));
-        return;
+void gather_batch(const Gathering& g, uint32_t first, uint32_t count, bool looks_around,
+                  Visitor&& visitor) {
+    Draws draws;
+    g.samples.draw(first, draws);
+    ShadowRays shadows;
+    Ray rays[kBatch];
+    struct {
+        uint32_t sample;
+        const Outlook* outlook;
+    } origins[kBatch];
+    uint32_t ray_total = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Outlook& from = pick(g.outlooks, draws.values[Draws::point][i]);
+        shadows.add(g.world, from.at, from.emitters, draws.emitter(i), draws.sky(i));
+        if (!looks_around) continue;
+        const vec3 direction = from.frame.to_world(shared::cosine_hemisphere(draws.hemisphere(i)));
+        if (!(dot(direction, from.at.geometric_normal) > 0)) continue;
+        rays[ray_total] = {from.at.origin, direction};
+        origins[ray_total++] = {first + i, &from};
     }
-    if (world.lights.has_emitters())
-        visitor.direct(emission_seen(world, at, direction, hit.at, hit.front));
-    const uint32_t element = hit.front ? map.element(hit.at) : kNoElement;
-    if (element != kNoElement)
-        visitor.texel(0, element, vec3{1, 1, 1});
-    else
-        follow_path(world, map, hit, samples.path(i), max_vertices, visitor, ray_count);
+    visitor.direct(shadows.trace(g.world, g.ray_count));
+
+    accel::cpu::SurfaceHit hits[kBatch];
+    g.world.rays.cpu().intersect(std::span(rays, ray_total), hits);
+    g.ray_count += ray_total;
+    // Texels are all over memory: looked up side by side, they are waited for together.
+    uint32_t elements[kBatch];
+    for (uint32_t k = 0; k < ray_total; ++k)
+        elements[k] = hits[k].distance < kInfinity ? g.element(hits[k]) : kNoElement;
+    for (uint32_t k = 0; k < ray_total; ++k) {
+        if (elements[k] == kNoElement) continue;
+        visitor.ray(origins[k].sample);
+        visitor.texel(0, elements[k], vec3{1, 1, 1});
+    }
+    for (uint32_t k = 0; k < ray_total; ++k) {
+        const auto& [sample, from] = origins[k];
+        const accel::cpu::SurfaceHit& hit = hits[k];
+        if (!(hit.distance < kInfinity)) {
+            visitor.direct(sky_seen(g.world, from->at, rays[k].direction));
+            continue;
+        }
+        visitor.direct(
+            emission_seen(g.world, from->at, from->emitters, rays[k].direction, hit.at, hit.front));
+        if (elements[k] != kNoElement) continue;
+        visitor.ray(sample);
+        follow_path(g, hit, g.samples.path(sample), visitor);
+    }
 }
 
 }  // namespace aglow::transport::cpu

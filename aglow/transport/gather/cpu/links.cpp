@@ -26,12 +26,13 @@ struct LinkCollector {
     std::vector<PathLink>& paths;
     vec3& direct_sum;
     uint32_t from;
-    uint32_t ray = 0;
+    uint32_t current = 0;
 
+    void ray(uint32_t i) { current = i; }
     void direct(vec3 irradiance) { direct_sum += irradiance; }
     void texel(int delay, uint32_t element, vec3 weight) {
         if (delay == 0)
-            to[ray] = element;
+            to[current] = element;
         else
             paths.push_back({from, element, delay, weight});
     }
@@ -62,19 +63,14 @@ void trace_texel(const World& world, const Texels& texels, const TexelMap& map,
     std::vector<Outlook> outlooks;
     outlooks.reserve(point_count);
     for (uint32_t p = first; p < first + point_count; ++p) {
-        outlooks.emplace_back(vantage_on(world.surfaces, texels.samples[p], true));
+        outlooks.emplace_back(world, vantage_on(world.surfaces, texels.samples[p], true));
         delta += delta_irradiance(world, outlooks.back().at, ray_count);
     }
     LinkCollector collector{std::span(links.to).subspan(size_t{element} * ray_total, ray_total),
                             paths, sampled, element};
-    for (uint32_t i = 0; i < ray_total; ++i) {
-        const Samples::Draw draw = samples.draw(i, world.lights.samples_sky());
-        const Outlook& from = pick(outlooks, draw.point);
-        collector.ray = i;
-        sampled += sampled_irradiance(world, from.at, draw.emitter, draw.sky, ray_count);
-        gather_ray(world, map, from, samples, i, draw.hemisphere, max_vertices, collector,
-                   ray_count);
-    }
+    const Gathering gathering{world, map, samples, outlooks, max_vertices, ray_count};
+    for (uint32_t i = 0; i < ray_total; i += kBatch)
+        gather_batch(gathering, i, std::min(kBatch, ray_total - i), true, collector);
     links.direct[element] = delta * weight + sampled / static_cast<float>(ray_total);
 }
 

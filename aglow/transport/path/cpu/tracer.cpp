@@ -30,6 +30,8 @@ vec3 cosine_direction(vec3 n, vec2 u) {
     return Frame(n).to_world(local);
 }
 
+float cosine_pdf(vec3 n, vec3 direction) { return std::max(0.0f, dot(n, direction)) / kPi; }
+
 float largest(vec3 c) { return std::max({c.x, c.y, c.z}); }
 
 }  // namespace
@@ -55,31 +57,37 @@ vec3 Tracer::unless_blocked(const Vertex& vertex, const LightSample& light, int&
     return light.normal_irradiance * (cosine * world_.rays.visibility(shadow));
 }
 
-vec3 Tracer::sampled_light(const Vertex& vertex, Pcg32& random, int& ray_count) const {
+vec3 Tracer::sampled_light(const Vertex& vertex, const EmittersSeen& emitters, Pcg32& random,
+                           int& ray_count) const {
     const Lights& lights = world_.lights;
     vec3 sum = {0, 0, 0};
     for (size_t i = 0; i < lights.delta_count(); ++i)
         sum += unless_blocked(vertex, lights.delta(i, vertex.origin), ray_count);
-    if (lights.has_emitters())
-        sum += unless_blocked(
-            vertex, lights.emitter(vertex.origin, vertex.normal, uniform3(random)), ray_count);
-    if (lights.samples_sky()) {
-        const LightSample light = lights.sky(uniform2(random));
-        const float cosine_pdf = std::max(0.0f, dot(vertex.normal, light.direction)) / kPi;
-        if (light.pdf > 0)
-            sum +=
-                unless_blocked(vertex, light, ray_count) * (light.pdf / (light.pdf + cosine_pdf));
-    }
+    const auto add = [&](const LightSample& light) {
+        if (!(light.pdf > 0)) return;
+        const float weight = light.pdf / (light.pdf + cosine_pdf(vertex.normal, light.direction));
+        sum += unless_blocked(vertex, light, ray_count) * weight;
+    };
+    if (lights.has_emitters()) add(emitters.sample(uniform3(random)));
+    if (lights.samples_sky()) add(lights.sky(uniform2(random)));
     return sum;
 }
 
 vec3 Tracer::escaped_light(const Vertex& vertex, vec3 direction) const {
     const Lights& lights = world_.lights;
     if (!lights.has_sky()) return {0, 0, 0};
-    const float cosine_pdf = std::max(0.0f, dot(vertex.normal, direction)) / kPi;
+    const float ray_pdf = cosine_pdf(vertex.normal, direction);
     const float sky_pdf = lights.samples_sky() ? lights.sky_pdf(direction) : 0;
-    const float weight = sky_pdf > 0 ? cosine_pdf / (cosine_pdf + sky_pdf) : 1;
+    const float weight = sky_pdf > 0 ? ray_pdf / (ray_pdf + sky_pdf) : 1;
     return lights.sky_luminance(direction) * (kPi * weight);
+}
+
+vec3 Tracer::emitted_light(const Vertex& vertex, const EmittersSeen& emitters, vec3 direction,
+                           const Hit& hit) const {
+    const vec3 emitted = world_.lights.emitted(hit.at, hit.front);
+    if (!(largest(emitted) > 0)) return {0, 0, 0};
+    const float ray_pdf = cosine_pdf(vertex.normal, direction);
+    return emitted * (kPi * ray_pdf / (ray_pdf + emitters.pdf(hit.at)));
 }
 
 PathSample Tracer::trace(const Receiver& receiver, Pcg32& random) const {
@@ -88,11 +96,12 @@ PathSample Tracer::trace(const Receiver& receiver, Pcg32& random) const {
     vec3 throughput = {1, 1, 1};  // of irradiance here to irradiance at the receiver
     for (int bounce = 0;; ++bounce) {
         vec3& sum = bounce == 0 ? result.irradiance.direct : result.irradiance.indirect;
-        sum += throughput * sampled_light(vertex, random, result.ray_count);
+        const EmittersSeen emitters(world_.lights.emitters(), vertex.origin, vertex.normal);
+        sum += throughput * sampled_light(vertex, emitters, random, result.ray_count);
         result.bounces = bounce;
 
         const bool last = bounce == bounces_;
-        if (last && !world_.lights.has_sky()) break;
+        if (last && !world_.lights.has_sky() && !world_.lights.has_emitters()) break;
         const vec3 direction = cosine_direction(vertex.normal, uniform2(random));
         if (!(dot(vertex.geometric_normal, direction) > 0)) break;
         ++result.ray_count;
@@ -101,6 +110,7 @@ PathSample Tracer::trace(const Receiver& receiver, Pcg32& random) const {
             sum += throughput * escaped_light(vertex, direction);
             break;
         }
+        sum += throughput * emitted_light(vertex, emitters, direction, *hit);
         if (last) break;
 
         // What the ray sees is rho / pi * E there, and the ray stands for pi times it.

@@ -2,6 +2,7 @@
 #pragma once
 #include "aglow/core/random.h"
 #include "aglow/transport/irradiance.h"
+#include "aglow/transport/lights/emitters.h"
 
 namespace aglow::transport::cpu {
 
@@ -35,11 +36,16 @@ private:
     static Vertex vertex_of(const Receiver& receiver);
     /// The vertex on the side of a hit surface that the ray came from.
     Vertex vertex_at(const Hit& hit) const;
-    /// Irradiance from lights that are found by sampling them.
-    vec3 sampled_light(const Vertex& vertex, Pcg32& random, int& ray_count) const;
+    /// Irradiance from lights that are found by sampling them; emitters and a sky with the weight
+    /// that the balance heuristic leaves to that.
+    vec3 sampled_light(const Vertex& vertex, const EmittersSeen& emitters, Pcg32& random,
+                       int& ray_count) const;
     vec3 unless_blocked(const Vertex& vertex, const LightSample& light, int& ray_count) const;
-    /// Irradiance from the sky that a cosine-distributed ray stands for which left the scene.
+    /// Irradiance that a cosine-distributed ray stands for which left the scene ...
     vec3 escaped_light(const Vertex& vertex, vec3 direction) const;
+    /// ... or met an emissive surface.
+    vec3 emitted_light(const Vertex& vertex, const EmittersSeen& emitters, vec3 direction,
+                       const Hit& hit) const;
 
     const World& world_;
     int bounces_;
