@@ -45,10 +45,12 @@ float solid_angle(vec3 a, vec3 b, vec3 c) {
 
 TriangleSampler::TriangleSampler(vec3 a, vec3 b, vec3 c)
     : a_(a), b_(b), c_(c), by_area_(is_far(a, b, c)) {
-    if (by_area_) return;
-    solid_angle_ = solid_angle(a, b, c);
-    by_area_ = !(solid_angle_ > kSmallestSolidAngle);
+    if (!by_area_) {
+        solid_angle_ = solid_angle(a, b, c);
+        by_area_ = !(solid_angle_ > kSmallestSolidAngle);
+    }
     if (!by_area_) prepare_directions();
+    if (by_area_) volume_ = std::abs(aglow::shared::dot(aglow::shared::cross(b - a, c - a), a)) / 2;
 }
 
 void TriangleSampler::prepare_directions() {
@@ -110,13 +112,12 @@ vec2 TriangleSampler::project(DVec direction) const {
     return {static_cast<float>(v / sum), static_cast<float>(w / sum)};
 }
 
-/// 1/sr of a point drawn evenly over the triangle's area; 0 where it is degenerate or edge-on.
+/// 1/sr of a point drawn evenly over the triangle's area; 0 where it is degenerate or edge-on. The
+/// area times the cosine that it is seen under is the volume below over the distance.
 float TriangleSampler::area_pdf(vec2 at) const {
     const vec3 p = a_ * (1 - at.x - at.y) + b_ * at.x + c_ * at.y;
-    const vec3 twice_area = aglow::shared::cross(b_ - a_, c_ - a_);
-    const float projected = std::abs(aglow::shared::dot(twice_area, p)) / 2;
     const float distance2 = aglow::shared::dot(p, p);
-    return projected > 0 ? distance2 * std::sqrt(distance2) / projected : 0;
+    return volume_ > 0 ? distance2 * std::sqrt(distance2) / volume_ : 0;
 }
 
 TriangleSample TriangleSampler::sample_area(vec2 u) const {

@@ -38,7 +38,8 @@ private:
 
     vec3 a_, b_, c_;
     bool by_area_;
-    float solid_angle_ = 0;
+    float volume_ = 0;       // by area: three times that of the pyramid up to the receiver
+    float solid_angle_ = 0;  // else
     // The spherical triangle (p, q, r) with angle alpha at p.
     DVec p_{}, q_{}, r_orthogonal_{};  // the last: unit, across p in the plane of p and r
     double alpha_ = 0, sin_alpha_ = 0, cos_alpha_ = 0, cos_pq_ = 0;
