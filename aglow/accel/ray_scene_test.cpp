@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/accel/ray_scene.h"
 
+#include "aglow/accel/cpu/embree_scene.h"
 #include "aglow/core/random.h"
 
 #include <doctest/doctest.h>
@@ -103,6 +104,42 @@ TEST_CASE("a blended surface of alpha 0.3 is hit by three rays in ten, the same 
         stopped += blocked;
     }
     CHECK(stopped == doctest::Approx(0.3 * kRays).epsilon(0.04));  // 4 standard deviations: 0.043
+}
+
+TEST_CASE("rays traced in packets find what they find one by one") {
+    Scene scene = square(AlphaMode::blend, half_transparent());
+    scene.materials[0].base_color.w = 0.6f;
+    scene.materials.push_back({});
+    Primitive wall = scene.meshes[0].primitives[0];  // opaque, below the square
+    wall.material = 1;
+    for (vec3& p : wall.positions) p = {p.x * 0.5f, -1, p.z};
+    scene.meshes[0].primitives.push_back(wall);
+    const Surfaces surfaces = pose(scene);
+    const RayScene scene_rays = *RayScene::create(scene, surfaces);
+    Pcg32 random(9);
+    for (const size_t count : {0, 1, 7, 8, 9, 16, 203}) {
+        std::vector<Ray> rays;
+        for (size_t i = 0; i < count; ++i) {
+            const vec3 to{random.uniform() * 1.2f, -1, random.uniform() * 1.2f};
+            const vec3 line = to - vec3{0.5f, 1, 0.5f};
+            rays.push_back({{0.5f, 1, 0.5f}, normalize(line), i % 5 == 0 ? 1.5f : kInfinity});
+        }
+        std::vector<accel::cpu::SurfaceHit> hits(count);
+        std::vector<float> passing(count);
+        scene_rays.cpu().intersect(rays, hits.data());
+        scene_rays.cpu().visibility(rays, passing.data());
+        for (size_t i = 0; i < count; ++i) {
+            const auto hit = scene_rays.intersect(rays[i]);
+            REQUIRE(hit.has_value() == (hits[i].distance < kInfinity));
+            if (hit) {
+                CHECK(hit->at.triangle == hits[i].at.triangle);
+                CHECK(hit->front == hits[i].front);
+                CHECK(hit->distance == doctest::Approx(hits[i].distance).epsilon(1e-6));
+                CHECK(length(position(surfaces, hit->at) - position(surfaces, hits[i].at)) < 1e-5f);
+            }
+            CHECK(passing[i] == scene_rays.visibility(rays[i]));
+        }
+    }
 }
 
 TEST_CASE(

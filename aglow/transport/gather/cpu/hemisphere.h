@@ -28,15 +28,6 @@ inline const Outlook& pick(std::span<const Outlook> outlooks, float u) {
     return outlooks[std::min(i, outlooks.size() - 1)];
 }
 
-/// What hemisphere rays find, told to a visitor with four members:
-///   ray(i)                       what follows is of sample i
-///   direct(irradiance)           light that arrives at the receiver from what emits
-///   texel(delay, element, w)     light of a texel, weighted by w, after `delay` path vertices
-///   light(delay, exitance)       light that reached path vertex number `delay` (0: the first)
-///   directly
-/// Texels hold the light of fronts only. A ray that meets a back, or a front without a texel of
-/// its own, goes on from there as a path until it finds a texel. At most `max_vertices` vertices
-/// are followed; kUnlimited leaves the end to Russian roulette.
 inline constexpr int kUnlimited = -1;
 
 /// What all rays of one receiver share.
@@ -45,7 +36,7 @@ struct Gathering {
     const TexelMap& map;
     const Samples& samples;
     std::span<const Outlook> outlooks;
-    int max_vertices;
+    int max_vertices;  ///< of a path; kUnlimited leaves its end to Russian roulette
     uint64_t& ray_count;
 
     uint32_t element(const accel::cpu::SurfaceHit& hit) const {
@@ -53,6 +44,15 @@ struct Gathering {
     }
 };
 
+// What rays find is told to a visitor with four members:
+//   ray(i)                       what follows is of sample i
+//   direct(irradiance)           light that arrives at the receiver from what emits
+//   texel(delay, element, w)     light of a texel, weighted by w, after `delay` path vertices
+//   light(delay, exitance)       light that reached path vertex number `delay` (0: the first)
+//                                directly
+
+/// Texels hold the light of fronts only. A ray that met a back, or a front without a texel of its
+/// own, goes on from there as a path until it finds a texel.
 template <class Visitor>
 void follow_path(const Gathering& g, accel::cpu::SurfaceHit hit, Pcg32 random, Visitor&& visitor) {
     const World& world = g.world;
