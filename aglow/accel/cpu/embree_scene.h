@@ -69,8 +69,8 @@ public:
         return ray.tfar < 0 ? 0 : context.passing[0];
     }
 
-    /// The same for many rays, traced in packets: faster than one by one where they leave one place.
-    /// hits[i].distance is kInfinity where ray i meets nothing.
+    /// The same for many rays, traced in packets: faster than one by one where they leave one
+    /// place. hits[i].distance is kInfinity where ray i meets nothing.
     void intersect(std::span<const Ray> rays, SurfaceHit* hits) const;
     void visibility(std::span<const Ray> rays, float* passing) const;
 
