@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/gltf/test_files.h"
 #include "aglow/scene/gltf_source.h"
+#include "aglow/scene/photometry.h"
 
 #include <doctest/doctest.h>
 #include <cmath>
@@ -56,6 +57,39 @@ TEST_CASE("lights have candela or lux per channel, and cones") {
     CHECK(scene.lights[1].intensity == vec3{1, 1, 1});
     CHECK(scene.lights[2].range == kInfinity);
     CHECK(scene.nodes[0].light == 0);
+}
+
+TEST_CASE("luminaires are lights of their nodes, tinted and multiplied there") {
+    const std::string file = "TILT=NONE 1 -1 2 2 1 1 2 0 0 0 1 1 0 0 180 0 30 30";
+    std::string ies = "IESNA:LM-63-2002\n" + file;
+    ies.replace(ies.find("NONE ") + 4, 1, "\n");
+    const std::string uri =
+        "data:application/x-ies-lm-63;base64," + base64(Bytes(ies.begin(), ies.end()));
+    const std::string profile = R"("extensions": {"EXT_lights_ies": {"lights": [
+        {"uri": ")" + uri + R"(", "name": "lamp"}]},
+        "KHR_lights_punctual": {"lights": [{"type": "point"}]}}, )";
+    const Scene scene = load_members(profile + R"("nodes": [
+        {"extensions": {"EXT_lights_ies": {"light": 0, "multiplier": 3, "color": [1, 0.5, 0]},
+                        "KHR_lights_punctual": {"light": 0}}},
+        {"extensions": {"EXT_lights_ies": {"light": 0}}}])");
+    REQUIRE(scene.lights.size() == 3);
+    const Light& lamp = scene.lights[static_cast<size_t>(scene.nodes[0].light)];
+    CHECK(lamp.kind == LightKind::photometric);
+    CHECK(lamp.name == "lamp");
+    CHECK(lamp.intensity == vec3{3, 1.5f, 0});
+    CHECK(intensity(*lamp.photometry, {0, 1, 0}) == doctest::Approx(60));
+    CHECK(scene.lights[static_cast<size_t>(scene.nodes[1].light)].intensity == vec3{1, 1, 1});
+
+    const auto message = [&](const std::string& members) {
+        const auto loaded = load_json(document(members));
+        return loaded ? std::string("loads") : loaded.error().message;
+    };
+    CHECK(message(profile + R"("nodes": [{"extensions": {"EXT_lights_ies": {"light": 1}}}])") ==
+          "node 0: light profile 1 does not exist");
+    CHECK(message(R"("extensions": {"EXT_lights_ies": {"lights": [{"name": "x"}]}})") ==
+          "light profile 0 \"x\": has to have either a uri or a bufferView");
+    CHECK(message(R"("extensions": {"EXT_lights_ies": {"lights": [{"uri": "data:,IES"}]}})") ==
+          "light profile 0: has no line TILT=");
 }
 
 TEST_CASE("materials hold luminance, clamped factors and texture transforms") {

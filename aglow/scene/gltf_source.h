@@ -17,8 +17,9 @@ struct GltfSource {
     /// [buffers.length] byteLength bytes each; a fallback buffer ends with its last view.
     std::vector<std::vector<uint8_t>> buffers;
     std::vector<std::vector<uint8_t>>
-        images;                    ///< [images.length]; empty where in a bufferView or missing
-    std::filesystem::path folder;  ///< where relative URIs start
+        images;  ///< [images.length]; empty where in a bufferView or missing
+    std::vector<std::vector<uint8_t>> light_profiles;  ///< [lights of EXT_lights_ies]; as images
+    std::filesystem::path folder;                      ///< where relative URIs start
 };
 
 }  // namespace aglow

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/scene.h"
 
+#include "aglow/scene/photometry.h"
+
 #include <cmath>
 
 namespace aglow {
@@ -39,6 +41,17 @@ void add_point_light(Scene& scene, vec3 position, float flux) {
     const float candela = flux / (4 * kPi);
     light.intensity = {candela, candela, candela};
     add_light_node(scene, std::move(light)).translation = position;
+}
+
+void add_luminaire(Scene& scene, vec3 position, std::shared_ptr<const Photometry> photometry) {
+    Light light;
+    light.name = photometry->name.empty() ? "luminaire" : photometry->name;
+    light.kind = LightKind::photometric;
+    light.photometry = std::move(photometry);
+    Node& node = add_light_node(scene, std::move(light));
+    node.translation = position;
+    const auto half = static_cast<float>(std::sqrt(0.5));
+    node.rotation = {-half, 0, 0, half};  // -Z turns to -Y about X
 }
 
 void add_sun(Scene& scene, float azimuth_degrees, float elevation_degrees, float illuminance) {

@@ -153,16 +153,20 @@ struct Camera {
     float z_near = 0.01f;
 };
 
-enum class LightKind : uint8_t { point, spot, directional };
+enum class LightKind : uint8_t { point, spot, directional, photometric };
 
-/// KHR_lights_punctual. Shines along -Z of its node.
+struct Photometry;  // aglow/scene/photometry.h
+
+/// KHR_lights_punctual, or a luminaire of EXT_lights_ies. Shines along -Z of its node.
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    vec3 intensity = {1, 1, 1};  ///< color * intensity: candela (point, spot), lux (directional)
+    vec3 intensity = {1, 1, 1};  ///< color * intensity: candela (point, spot), lux (directional);
+                                 ///< a factor for a photometric light
     float range = kInfinity;     ///< m; recorded, but light does not end there (see docs)
     float inner_cone = 0;        ///< radians, spot
     float outer_cone = kPi / 4;  ///< radians, spot
+    std::shared_ptr<const Photometry> photometry = nullptr;  ///< of a photometric light
 };
 
 /// Light from infinity all round: a uniform luminance, or an equirectangular image with -Z
@@ -198,6 +202,9 @@ std::vector<mat4> world_transforms(const Scene& scene, double time = -1);
 
 /// Adds an isotropic point light of `flux` lumen at `position` (a light and a root node).
 void add_point_light(Scene& scene, vec3 position, float flux);
+/// Adds a luminaire at `position` that is aimed straight down, with C0 to the east (+X) and C90 to
+/// the north (-Z).
+void add_luminaire(Scene& scene, vec3 position, std::shared_ptr<const Photometry> photometry);
 /// Adds the sun as a directional light. Azimuth clockwise from north (-Z), elevation above the
 /// horizon, degrees; `illuminance` in lux on a plane that faces the sun.
 void add_sun(Scene& scene, float azimuth_degrees, float elevation_degrees, float illuminance);

@@ -2,6 +2,7 @@
 #include "aglow/core/assert.h"
 #include "aglow/core/file.h"
 #include "aglow/scene/image_file.h"
+#include "aglow/scene/photometry.h"
 #include "aglow/scene/write.h"
 
 #include <fmt/format.h>
@@ -91,7 +92,7 @@ private:
         }
         if (node.mesh >= 0) out["mesh"] = node.mesh;
         if (node.camera >= 0) out["camera"] = node.camera;
-        if (node.light >= 0) out["extensions"]["KHR_lights_punctual"]["light"] = node.light;
+        if (node.light >= 0) add_light(node, out);
         return out;
     }
 
@@ -222,8 +223,39 @@ private:
         return out;
     }
 
+    /// The node's member that names its light: punctual ones are numbered without luminaires,
+    /// whose factors stand in the node.
+    void add_light(const Node& node, Json& out) {
+        const auto index = static_cast<size_t>(node.light);
+        const Light& light = scene_.lights[index];
+        const bool luminaire = light.kind == LightKind::photometric;
+        const auto number = std::count_if(
+            scene_.lights.begin(), scene_.lights.begin() + node.light, [&](const Light& other) {
+                return (other.kind == LightKind::photometric) == luminaire;
+            });
+        Json& extension = use(out, luminaire ? "EXT_lights_ies" : "KHR_lights_punctual");
+        extension["light"] = number;
+        if (!luminaire) return;
+        const vec3 i = light.intensity;
+        const float brightest = std::max({i.x, i.y, i.z});
+        extension["multiplier"] = brightest;
+        if (brightest > 0) extension["color"] = to_json(i / brightest);
+    }
+
+    void add_luminaire(const Light& light) {
+        const std::string file = to_lm63(*light.photometry);
+        const size_t view = add_view(file.data(), file.size());
+        Json out = {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}};
+        put_name(out, light.photometry->name);
+        use(json_, "EXT_lights_ies")["lights"].push_back(std::move(out));
+    }
+
     void add_lights() {
         for (const Light& light : scene_.lights) {
+            if (light.kind == LightKind::photometric) {
+                add_luminaire(light);
+                continue;
+            }
             constexpr const char* kKinds[] = {"point", "spot", "directional"};
             const vec3 i = light.intensity;
             const float brightest = std::max({i.x, i.y, i.z});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
+#include "aglow/scene/photometry.h"
 #include "aglow/scene/write.h"
 
 #include <doctest/doctest.h>
@@ -235,6 +236,37 @@ TEST_CASE("names that are not UTF-8 do not stop the writing") {
 }
 
 TEST_CASE("an empty scene is written too") { CHECK(reloaded(Scene{}).meshes.empty()); }
+
+TEST_CASE("luminaires come back among punctual lights") {
+    Scene scene;
+    scene.meshes.push_back({"mesh", {one_triangle()}, {}});
+    scene.meshes[0].primitives[0].material = -1;
+    Node node;
+    node.mesh = 0;
+    scene.nodes.push_back(node);
+    auto photometry = std::make_shared<Photometry>();
+    *photometry = {"downlight", {0, 45, 90}, {0}, {300, 200, 0}};
+    add_point_light(scene, {0, 3, 0}, 100);
+    add_luminaire(scene, {1, 2, 3}, photometry);
+    scene.lights.back().intensity = {2, 1, 0};
+    add_point_light(scene, {0, 4, 0}, 200);
+    add_luminaire(scene, {2, 2, 3}, photometry);
+
+    const auto glb = to_glb(scene);
+    REQUIRE(glb.has_value());
+    const auto loaded = load_gltf(std::as_bytes(std::span(*glb)), "test", {});
+    REQUIRE(loaded.has_value());
+    for (size_t i = 1; i < scene.nodes.size(); ++i) {
+        const Light& light = scene.lights[static_cast<size_t>(scene.nodes[i].light)];
+        const Light& again = loaded->lights[static_cast<size_t>(loaded->nodes[i].light)];
+        CHECK(again.kind == light.kind);
+        check_near(again.intensity, light.intensity);
+        REQUIRE((again.photometry != nullptr) == (light.photometry != nullptr));
+        if (!light.photometry) continue;
+        CHECK(again.photometry->name == "downlight");
+        CHECK(again.photometry->candela == photometry->candela);
+    }
+}
 
 TEST_CASE("what cannot be written is said and named") {
     Scene empty_primitive = varied_scene();

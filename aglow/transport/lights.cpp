@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/transport/lights.h"
 
+#include "aglow/scene/photometry.h"
 #include "aglow/transport/lights/emitters.h"
 #include "aglow/transport/lights/sky_distribution.h"
 
@@ -15,6 +16,8 @@ struct Delta {
     vec3 axis;  ///< unit, along which it shines
     vec3 intensity;
     float cone_scale = 0, cone_offset = 1;  ///< KHR_lights_punctual, inner and outer cone angles
+    const Photometry* photometry = nullptr;
+    vec3 right = {1, 0, 0}, up = {0, 1, 0};  ///< unit, of the photometry's C0 and C90
 };
 
 Delta make_delta(const Light& light, const mat4& to_world) {
@@ -25,6 +28,12 @@ Delta make_delta(const Light& light, const mat4& to_world) {
         delta.cone_scale = 1 / std::max(0.001f, cos_inner - cos_outer);
         delta.cone_offset = -cos_outer * delta.cone_scale;
     }
+    if (light.kind == LightKind::photometric) {
+        // The node's scale does not count, but a mirror turns C the other way round.
+        delta.photometry = light.photometry.get();
+        delta.right = normalize(transform_direction(to_world, {1, 0, 0}));
+        delta.up = normalize(transform_direction(to_world, {0, 1, 0}));
+    }
     return delta;
 }
 
@@ -32,6 +41,20 @@ float cone_attenuation(const Delta& delta, vec3 from_light) {
     const float t = shared::clamp(
         dot(delta.axis, from_light) * delta.cone_scale + delta.cone_offset, 0.0f, 1.0f);
     return t * t;
+}
+
+/// What a light's own intensity is multiplied with along a direction away from it.
+float distribution(const Delta& delta, vec3 from_light) {
+    switch (delta.kind) {
+        case LightKind::spot:
+            return cone_attenuation(delta, from_light);
+        case LightKind::photometric:
+            return intensity(*delta.photometry,
+                             {dot(from_light, delta.right), dot(from_light, delta.up),
+                              -dot(from_light, delta.axis)});
+        default:
+            return 1;
+    }
 }
 
 }  // namespace
@@ -73,9 +96,9 @@ LightSample Lights::delta(size_t i, vec3 p) const {
     const float distance = length(to_light);
     if (!(distance > 0)) return {};
     const vec3 direction = to_light / distance;
-    const float cone = delta.kind == LightKind::spot ? cone_attenuation(delta, -direction) : 1.0f;
+    const vec3 candela = delta.intensity * distribution(delta, -direction);
     // Dividing twice keeps the square of a very small or large distance in range.
-    return {direction, distance, delta.intensity * cone / distance / distance, 0};
+    return {direction, distance, candela / distance / distance, 0};
 }
 
 bool Lights::has_emitters() const { return !data_->emitters.empty(); }

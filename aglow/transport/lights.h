@@ -23,8 +23,8 @@ struct LightSample {
 };
 
 /// The light formulas: all that emits in a scene, and how to sample it. Three kinds, sampled apart:
-/// delta lights (point, spot, directional) are few and evaluated one by one; emissive triangles
-/// are drawn from a light tree; the sky by its luminance.
+/// delta lights (point, spot, directional, luminaires with photometry) are few and evaluated one by
+/// one; emissive triangles are drawn from a light tree; the sky by its luminance.
 /// Units  lux, cd/m^2, candela.   Thread safety  const members from any thread.
 class Lights {
 public:
@@ -34,7 +34,7 @@ public:
     Lights(Lights&&) noexcept;
     ~Lights();
 
-    /// Point, spot and directional lights: the i-th seen from `p`.
+    /// Lights without extent: the i-th seen from `p`.
     size_t delta_count() const;
     LightSample delta(size_t i, vec3 p) const;
 

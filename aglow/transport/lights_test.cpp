@@ -2,6 +2,7 @@
 #include "aglow/transport/lights.h"
 
 #include "aglow/core/random.h"
+#include "aglow/scene/photometry.h"
 #include "aglow/shared/sobol.h"
 #include "aglow/transport/lights/emitters.h"
 #include "aglow/transport/lights/light_tree.h"
@@ -186,6 +187,25 @@ TEST_CASE("sky directions follow luminance: their weighted mean is the sky's int
         sum += static_cast<double>(value.x / s.pdf) / kCount;
     }
     CHECK(sum == doctest::Approx(integral).epsilon(0.005));
+}
+
+TEST_CASE("a luminaire shines by its photometry, turned with its node") {
+    auto photometry = std::make_shared<Photometry>();
+    photometry->gamma = {0, 90};
+    photometry->c = {0, 90, 180, 270, 360};
+    photometry->candela = {100, 10, 100, 20, 100, 30, 100, 40, 100, 10};
+    Scene scene;
+    add_luminaire(scene, {0, 2, 0}, photometry);  // down, C0 to +X, C90 to -Z
+    const Surfaces surfaces;
+    const Lights lights(scene, surfaces, world_transforms(scene));
+    REQUIRE(lights.delta_count() == 1);
+    const auto at = [&](vec3 p) { return lights.delta(0, p).normal_irradiance.x; };
+    CHECK(at({0, 0, 0}) == doctest::Approx(100 / 4.0));
+    CHECK(at({3, 2 - 1e-5f, 0}) == doctest::Approx(10 / 9.0).epsilon(1e-3));
+    CHECK(at({0, 2 - 1e-5f, -3}) == doctest::Approx(20 / 9.0).epsilon(1e-3));
+    CHECK(at({-3, 2 - 1e-5f, 0}) == doctest::Approx(30 / 9.0).epsilon(1e-3));
+    CHECK(at({0, 2 - 1e-5f, 3}) == doctest::Approx(40 / 9.0).epsilon(1e-3));
+    CHECK(at({0, 3, 0}) == 0);
 }
 
 TEST_CASE("a spot keeps its candela inside the inner cone and has none outside the outer") {

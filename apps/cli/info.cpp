@@ -48,8 +48,8 @@ size_t emissive_triangles(const Scene& scene, const Surfaces& surfaces) {
 }
 
 Json light_counts(const Scene& scene) {
-    constexpr std::array<const char*, 3> kNames = {"point", "spot", "directional"};
-    Json counts = {{"point", 0}, {"spot", 0}, {"directional", 0}};
+    constexpr std::array<const char*, 4> kNames = {"point", "spot", "directional", "photometric"};
+    Json counts = {{"point", 0}, {"spot", 0}, {"directional", 0}, {"photometric", 0}};
     for (const Node& node : scene.nodes) {
         if (node.light < 0 || !node.in_scene) continue;
         const LightKind kind = scene.lights[static_cast<size_t>(node.light)].kind;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_options.h"
 
+#include "aglow/core/file.h"
 #include "aglow/mesh/surfaces.h"
 #include "aglow/scene/image_file.h"
 #include "aglow/scene/load.h"
+#include "aglow/scene/photometry.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +18,8 @@
 
 namespace aglow::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 Result<SkyOption> parse_sky(const std::string& text) {
     const Result<double> luminance = parse_number(text);
@@ -35,10 +39,18 @@ Result<SunOption> parse_sun(const std::string& text) {
 }
 
 Result<LightOption> parse_light(const std::string& text) {
-    AG_TRY(const std::vector<double> v, parse_numbers(text, 4));
+    size_t third = 0;
+    for (int commas = 0; commas < 3 && third != std::string::npos; ++commas)
+        third = text.find(',', third + (commas > 0 ? 1 : 0));
+    const std::string rest = third == std::string::npos ? "" : text.substr(third + 1);
+    const bool is_file = !rest.empty() && !parse_number(rest) && rest.find(',') == rest.npos;
+    AG_TRY(const std::vector<double> v,
+           is_file ? parse_numbers(text.substr(0, third), 3) : parse_numbers(text, 4));
+    const vec3 position{static_cast<float>(v[0]), static_cast<float>(v[1]),
+                        static_cast<float>(v[2])};
+    if (is_file) return LightOption{position, std::filesystem::path(rest)};
     if (v[3] < 0) return fail(Errc::bad_argument, fmt::format("{} lumen is negative", v[3]));
-    return LightOption{
-        {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}, v[3]};
+    return LightOption{position, v[3]};
 }
 
 /// Luminance below zero is what filters of image editors leave behind; nothing else may be wrong.
@@ -60,6 +72,14 @@ Result<Image> read_sky(const std::filesystem::path& path, Console& console) {
     return image;
 }
 
+Result<Photometry> read_luminaire(const fs::path& path) {
+    AG_TRY(const std::vector<uint8_t> bytes, read_file(path));
+    auto photometry = read_photometry(bytes);
+    if (!photometry)
+        return fail(photometry.error().code, photometry.error().message, path.string());
+    return photometry;
+}
+
 }  // namespace
 
 Table scene_table(SceneOptions& o) {
@@ -69,8 +89,8 @@ Table scene_table(SceneOptions& o) {
          "sky: an equirectangular .hdr or .exr in cd/m^2, or one luminance"},
         {"--sun", parsed(&o.sun, parse_sun), "AZ,EL,LUX",
          "sun: azimuth clockwise from north (-Z), elevation, degrees; lux facing it"},
-        {"--light", parsed_each(&o.lights, parse_light), "X,Y,Z,LUMEN",
-         "isotropic point light, metres and lumen; may be repeated"},
+        {"--light", parsed_each(&o.lights, parse_light), "X,Y,Z,LUMEN|FILE",
+         "isotropic point light, or a luminaire (.ies, .ldt) aimed down; may be repeated"},
         {"--clay", number(&o.clay, 0, static_cast<double>(kMaxReflectance)), "RHO",
          "make every surface a diffuse grey of this reflectance; emission is kept"},
         {"--time", number(&o.time, 0, kLongest), "S",
@@ -97,8 +117,15 @@ Result<Scene> prepare_scene(const std::filesystem::path& path, const SceneOption
     if (const auto& sun = options.sun)
         add_sun(scene, static_cast<float>(sun->azimuth_degrees),
                 static_cast<float>(sun->elevation_degrees), static_cast<float>(sun->illuminance));
-    for (const LightOption& light : options.lights)
-        add_point_light(scene, light.position, static_cast<float>(light.flux));
+    for (const LightOption& light : options.lights) {
+        if (const double* flux = std::get_if<double>(&light.source)) {
+            add_point_light(scene, light.position, static_cast<float>(*flux));
+            continue;
+        }
+        AG_TRY(Photometry photometry, read_luminaire(std::get<fs::path>(light.source)));
+        add_luminaire(scene, light.position,
+                      std::make_shared<const Photometry>(std::move(photometry)));
+    }
     if (options.clay) apply_clay(scene, static_cast<float>(*options.clay));
     return scene;
 }
@@ -118,8 +145,14 @@ void describe(const SceneOptions& options, Json& settings) {
     }
     if (const auto& sun = options.sun)
         settings["sun"] = {sun->azimuth_degrees, sun->elevation_degrees, sun->illuminance};
-    for (const auto& [p, flux] : options.lights)
-        settings["lights"].push_back(Json::array({p.x, p.y, p.z, flux}));
+    for (const auto& [p, source] : options.lights) {
+        Json light = {p.x, p.y, p.z};
+        if (const double* flux = std::get_if<double>(&source))
+            light.push_back(*flux);
+        else
+            light.push_back(std::get<fs::path>(source).filename().string());
+        settings["lights"].push_back(std::move(light));
+    }
     if (options.clay) settings["clay"] = *options.clay;
     if (options.time) settings["time"] = *options.time;
 }

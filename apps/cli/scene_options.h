@@ -22,7 +22,7 @@ struct SunOption {
 
 struct LightOption {
     vec3 position = {0, 0, 0};
-    double flux = 0;  ///< lm
+    std::variant<double, std::filesystem::path> source;  ///< lm, or an IES or EULUMDAT file
 };
 
 /// What is put into a scene beside what its file says.

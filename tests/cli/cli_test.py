@@ -365,6 +365,42 @@ class CommandLine(unittest.TestCase):
                               "--resolution", "16", points=[(0, 0.001, 0, 0, -1, 0)])
         self.assertAlmostEqual(grey["E"], 0.2 * math.pi * 100, delta=1)  # the lit ground, from above
 
+    def test_luminaires_shine_by_their_ies_file_wherever_the_scene_goes(self):
+        folder = self.dir / "luminaires"
+        folder.mkdir()
+        (folder / "lamp.ies").write_text(  # 100 cd straight down, 50 cd from 60 degrees on
+            "IESNA:LM-63-2002\n[LUMINAIRE] lamp\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 0\n"
+            "0 60 90\n0\n100 50 50\n")
+        points = [(0, 0.0001, 0, 0, 1, 0), (2 * math.sqrt(3), 0.0001, 0, 0, 1, 0)]
+        expected = [100 / 4, 50 / 16 * 0.5]
+
+        def check(scene, *words):
+            rows = self.measured(scene, *words, "--bounces", "0", *FAST, points=points)
+            for row, value in zip(rows, expected):
+                self.assertAlmostEqual(row["E"], value, delta=0.01)
+
+        check("plane.gltf", "--light", "0,2,0,luminaires/lamp.ies")
+        ground_plane(folder / "lit.gltf")
+        document = json.loads((folder / "lit.gltf").read_text())
+        document["extensionsUsed"] = document["extensionsRequired"] = ["EXT_lights_ies"]
+        document["extensions"] = {"EXT_lights_ies": {"lights": [{"uri": "lamp.ies"}]}}
+        half = math.sqrt(0.5)
+        document["nodes"].append({"translation": [0, 2, 0], "rotation": [-half, 0, 0, half],
+                                  "extensions": {"EXT_lights_ies": {"light": 0}}})
+        document["scenes"][0]["nodes"].append(1)
+        (folder / "lit.gltf").write_text(json.dumps(document))
+        check("luminaires/lit.gltf")
+        for out in ("moved.glb", "moved.gltf"):
+            self.run_aglow("bake", "luminaires/lit.gltf", "-o", out, *FAST)
+            self.assertEqual(self.json_of("info", out)["lights"]["photometric"], 1)
+            check(out)
+        (folder / "broken.ies").write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 two")
+        for name, code, says in (("broken.ies", 3, "number of vertical angles"),
+                                 ("missing.ies", 2, "missing.ies")):
+            self.run_aglow("measure", "plane.gltf", "-o", "no.csv", "--grid", "5", "--light",
+                           f"0,2,0,luminaires/{name}", code=code, says=says)
+        self.assertFalse((self.dir / "no.csv").exists())
+
     def test_measure_reads_what_spreadsheets_write(self):
         (self.dir / "odd.csv").write_bytes(
             b"\xef\xbb\xbfX, Y, Z, NX, NY, NZ\r\n\r\n# desk\r\n 0 , 1 ,0, 0, 3, 0 \r\n")

@@ -136,12 +136,15 @@ def lights():
     f.json["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
                          {"type": "orthographic",
                           "orthographic": {"xmag": 1, "ymag": 1, "zfar": 2, "znear": 0}}]
-    f.json["extensions"] = {"KHR_lights_punctual": {"lights": [
+    ies = "IESNA:LM-63-2002%0ATILT=NONE%0A1 -1 1 2 2 1 2 0 0 0 1 1 0%0A0 90 0 90 9 8 7 6"
+    f.json["extensions"] = {"EXT_lights_ies": {"lights": [{"uri": "data:," + ies}]}}
+    f.json["extensions"]["KHR_lights_punctual"] = {"lights": [
         {"type": "spot", "intensity": 5, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.4}},
-        {"type": "directional", "color": [1, 0.5, 0]}, {"type": "point", "range": 4}]}}
+        {"type": "directional", "color": [1, 0.5, 0]}, {"type": "point", "range": 4}]}
     f.json["nodes"] = [
         {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
-        {"camera": 1, "extensions": {"MSFT_lod": {"ids": [0]}}},
+        {"camera": 1, "extensions": {"MSFT_lod": {"ids": [0]},
+                                     "EXT_lights_ies": {"light": 0, "multiplier": 2}}},
         {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {
             "TRANSLATION": f.accessor([1, 2, 3, 4, 5, 6]),
             "ROTATION": f.accessor([0, 0, 0, 32767] * 2, "VEC4", I16, normalized=True)}}}}]

@@ -2,8 +2,13 @@
 // E = I cos(theta) / r^2 and its kin.
 #include "aglow/bake/validate/closed_forms.h"
 #include "aglow/bake/validate/experiment.h"
+#include "aglow/core/assert.h"
+#include "aglow/scene/photometry.h"
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
 
 namespace aglow::validation {
 namespace {
@@ -91,10 +96,66 @@ Experiment directional_light() {
     return e;
 }
 
+/// A luminaire as a file of measurements every degree tells it, from an LM-63 text.
+Light luminaire(const std::string& planes, const std::vector<double>& plane_angles,
+                double (*candela)(double c, double gamma)) {
+    std::string text = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 91 " +
+                       std::to_string(plane_angles.size()) + " 1 2 0 0 0\n1 1 0\n";
+    for (int gamma = 0; gamma <= 90; ++gamma) text += std::to_string(gamma) + "\n";
+    text += planes + "\n";
+    for (const double c : plane_angles)
+        for (int gamma = 0; gamma <= 90; ++gamma)
+            text += std::to_string(candela(c * kDegree, gamma * kDegree)) + "\n";
+    auto photometry = read_photometry({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    AG_ASSERT(photometry.has_value(), "a file made here");
+    Light light;
+    light.name = "luminaire";
+    light.kind = LightKind::photometric;
+    light.photometry = std::make_shared<const Photometry>(std::move(*photometry));
+    return light;
+}
+
+Experiment cosine_luminaire() {
+    Experiment e{.group = "luminaire", .name = "I0 cos(gamma)", .scene = black_plate()};
+    add_light(e.scene,
+              luminaire("0", {0}, [](double, double gamma) { return 1000 * std::cos(gamma); }),
+              {0, 2, 0}, {0, -1, 0});
+    const std::pair<const char*, double> angles[] = {{"0", 0}, {"30.5", 30.5}, {"60", 60}};
+    for (const auto& [name, degrees] : angles) {
+        const double angle = degrees * kDegree;
+        e.checks.push_back(total_at(e.sensors.size(),
+                                    std::string("E at ") + name + " degrees off the axis",
+                                    250 * std::pow(std::cos(angle), 4), "I0 cos(theta)^4 / h^2"));
+        e.sensors.push_back(sensor({static_cast<float>(2 * std::tan(angle)), 0, 0}, {0, 1, 0}));
+    }
+    return e;
+}
+
+Experiment wall_washer() {
+    Experiment e{
+        .group = "luminaire", .name = "brighter to one side, turned down", .scene = black_plate()};
+    const auto candela = [](double c, double gamma) {
+        return 100 + 50 * std::cos(c) * std::sin(gamma);
+    };
+    Light light = luminaire("0 30 60 90 120 150 180", {0, 30, 60, 90, 120, 150, 180}, candela);
+    light.intensity = {1, 0.5f, 0};
+    add_luminaire(e.scene, {0, 2, 0}, light.photometry);  // C0 to the east
+    e.scene.lights.back().intensity = light.intensity;
+    const double tint = 0.2126 + 0.7152 * 0.5, side = std::sqrt(0.5);
+    const auto expected = [&](double along_c0) { return tint * (100 + 50 * along_c0) / 8 * side; };
+    e.sensors = {sensor({2, 0, 0}, {0, 1, 0}), sensor({-2, 0, 0}, {0, 1, 0}),
+                 sensor({0, 0, -2}, {0, 1, 0})};
+    e.checks = {total_at(0, "E to the bright side", expected(side), "I(C, gamma) cos(theta) / r^2"),
+                total_at(1, "E to the dark side", expected(-side), "I(C, gamma) cos(theta) / r^2"),
+                total_at(2, "E between them", expected(0), "I(C, gamma) cos(theta) / r^2")};
+    return e;
+}
+
 }  // namespace
 
 std::vector<Experiment> punctual_lights() {
-    return {point_light(), two_point_lights(), spot_light(), tilted_spot(), directional_light()};
+    return {point_light(),       two_point_lights(), spot_light(), tilted_spot(),
+            directional_light(), cosine_luminaire(), wall_washer()};
 }
 
 }  // namespace aglow::validation

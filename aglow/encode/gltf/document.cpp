@@ -131,8 +131,23 @@ void count_accessor_uses(Document& document) {
 void count_view_uses(Document& document) {
     for (const Json& image : list_of(document.json, "images"))
         count(document.view_uses, integer(image, "bufferView"));
+    if (const Json* luminaires = find_extension(document.json, "EXT_lights_ies"))
+        for (const Json& profile : list_of(*luminaires, "lights"))
+            count(document.view_uses, integer(profile, "bufferView"));
     for (const Json& accessor : list_of(document.json, "accessors"))
         for (const int view : views_of(accessor)) count(document.view_uses, view);
+}
+
+/// IES files come along in a buffer: they are small, and a scene written elsewhere finds them.
+void embed_light_profiles(Document& document) {
+    const auto& files = document.source->light_profiles;
+    for (size_t i = 0; i < files.size(); ++i) {
+        if (files[i].empty()) continue;
+        Json& profile = document.json["extensions"]["EXT_lights_ies"]["lights"].at(i);
+        profile.erase("uri");
+        profile["bufferView"] = add_view(document, files[i]);
+        profile["mimeType"] = "application/x-ies-lm-63";
+    }
 }
 
 void erase_name(Json& json, const char* list, std::string_view name) {
@@ -166,6 +181,7 @@ Result<Document> open_document(const Scene& scene) {
     document.view_uses.resize(list_of(document.json, "bufferViews").size());
     count_accessor_uses(document);
     count_view_uses(document);
+    embed_light_profiles(document);
     return document;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/gltf/cameras_lights.h"
 
+#include "aglow/scene/gltf/uri.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -52,6 +54,20 @@ Status read_cone(const Json& json, Light& light) {
     return {};
 }
 
+/// color * the number `factor`, both 1 where absent.
+Result<vec3> read_color_times(const Json& json, const char* factor) {
+    float color[3] = {1, 1, 1};
+    AG_CHECK(json.numbers("color", color));
+    AG_TRY(const float number, json.number(factor, 1));
+    if (number < 0) return json.wrong(fmt::format("{} is negative", factor));
+    for (float& v : color) {
+        if (v < 0) return json.wrong("color is negative");
+        v *= number;
+        if (!std::isfinite(v)) return json.wrong(fmt::format("color * {} is not finite", factor));
+    }
+    return vec3{color[0], color[1], color[2]};
+}
+
 Result<Light> read_light(const Json& json) {
     Light light;
     AG_TRY(light.name, json.text("name", ""));
@@ -61,16 +77,7 @@ Result<Light> read_light(const Json& json) {
     light.kind = type == "point"  ? LightKind::point
                  : type == "spot" ? LightKind::spot
                                   : LightKind::directional;
-    float color[3] = {1, 1, 1};
-    AG_CHECK(json.numbers("color", color));
-    AG_TRY(const float intensity, json.number("intensity", 1));
-    if (intensity < 0) return json.wrong("intensity is negative");
-    for (float& v : color) {
-        if (v < 0) return json.wrong("color is negative");
-        v *= intensity;
-        if (!std::isfinite(v)) return json.wrong("color * intensity is not finite");
-    }
-    light.intensity = {color[0], color[1], color[2]};
+    AG_TRY(light.intensity, read_color_times(json, "intensity"));
     AG_TRY(light.range, json.number("range", kInfinity));
     if (!(light.range > 0)) return json.wrong("range must be above 0");
     if (light.kind == LightKind::spot) {
@@ -100,6 +107,49 @@ Result<std::vector<Light>> read_lights(const Json& root) {
         lights.push_back(std::move(light));
     }
     return lights;
+}
+
+Result<LightProfiles> read_light_profiles(const Json& root, std::span<const BufferView> views,
+                                          const std::filesystem::path& folder) {
+    AG_TRY(const Json extension, root.extension("EXT_lights_ies"));
+    AG_TRY(const std::vector<Json> list, elements(extension, "lights", "light profile"));
+    LightProfiles profiles;
+    profiles.files.resize(list.size());
+    for (size_t i = 0; i < list.size(); ++i) {
+        const Json& json = list[i];
+        const auto of_profile = [&](const Error& error) {
+            return fail(error.code, json.element() + ": " + error.message);
+        };
+        AG_TRY(const int view, json.index("bufferView", views.size(), "bufferView"));
+        AG_TRY(const std::string uri, json.text("uri", ""));
+        if (json.has("uri") == (view >= 0))
+            return json.wrong("has to have either a uri or a bufferView");
+        if (view < 0) {
+            auto file = read_uri(uri, folder);
+            if (!file) return of_profile(file.error());
+            profiles.files[i] = std::move(*file);
+        }
+        auto photometry = read_photometry(view < 0 ? std::span<const uint8_t>(profiles.files[i])
+                                                   : views[static_cast<size_t>(view)].bytes);
+        if (!photometry) return of_profile(photometry.error());
+        AG_TRY(const std::string name, json.text("name", ""));
+        if (!name.empty()) photometry->name = name;
+        profiles.photometries.push_back(std::make_shared<const Photometry>(std::move(*photometry)));
+    }
+    return profiles;
+}
+
+Result<std::optional<Light>> read_luminaire(const Json& node, const LightProfiles& profiles) {
+    AG_TRY(const Json extension, node.extension("EXT_lights_ies"));
+    if (!extension.exists()) return std::nullopt;
+    AG_TRY(const int index,
+           extension.required_index("light", profiles.photometries.size(), "light profile"));
+    Light light;
+    light.kind = LightKind::photometric;
+    light.photometry = profiles.photometries[static_cast<size_t>(index)];
+    light.name = light.photometry->name;
+    AG_TRY(light.intensity, read_color_times(extension, "multiplier"));
+    return light;
 }
 
 }  // namespace aglow::gltf

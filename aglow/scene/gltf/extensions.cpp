@@ -12,6 +12,7 @@ namespace {
 /// Extensions whose meaning for light is implemented.
 constexpr std::string_view kRead[] = {
     "KHR_lights_punctual",
+    "EXT_lights_ies",
     "KHR_materials_emissive_strength",
     "KHR_texture_transform",
     "KHR_mesh_quantization",
@@ -52,7 +53,7 @@ constexpr std::string_view kIrrelevant[] = {
 };
 
 /// Extensions that change diffuse light and are not known; a file may use them as an option.
-constexpr std::string_view kMissed[] = {"EXT_lights_ies", "EXT_lights_image_based",
+constexpr std::string_view kMissed[] = {"EXT_lights_image_based",
                                         "KHR_materials_diffuse_transmission"};
 
 bool is_known(std::string_view name) {

@@ -41,7 +41,9 @@ Result<Scene> read_scene(const gltf::Container& file, GltfSource& source) {
     AG_TRY(scene.cameras, gltf::read_cameras(root));
     AG_TRY(scene.lights, gltf::read_lights(root));
     AG_TRY(const size_t skin_count, gltf::count_skins(root));
-    AG_CHECK(gltf::read_nodes(root, accessors, skin_count, scene));
+    AG_TRY(gltf::LightProfiles profiles, gltf::read_light_profiles(root, views, source.folder));
+    AG_CHECK(gltf::read_nodes(root, accessors, skin_count, profiles, scene));
+    source.light_profiles = std::move(profiles.files);
     AG_CHECK(gltf::read_skins(root, accessors, scene));
     AG_CHECK(gltf::read_animations(root, accessors, scene));
     AG_CHECK(gltf::check_extent(scene));

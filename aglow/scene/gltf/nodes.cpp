@@ -53,18 +53,30 @@ Status read_transform(const Json& json, Node& node, std::vector<std::string>& wa
     return {};
 }
 
-Status read_references(const Json& json, size_t skin_count, const Scene& scene, Node& node) {
+Status read_references(const Json& json, size_t skin_count, size_t punctual_count,
+                       const Scene& scene, Node& node) {
     AG_TRY(node.mesh, json.index("mesh", scene.meshes.size(), "mesh"));
     AG_TRY(node.camera, json.index("camera", scene.cameras.size(), "camera"));
     AG_TRY(node.skin, json.index("skin", skin_count, "skin"));
     AG_TRY(const Json light, json.extension("KHR_lights_punctual"));
-    AG_TRY(node.light, light.index("light", scene.lights.size(), "light"));
+    AG_TRY(node.light, light.index("light", punctual_count, "light"));
     AG_TRY(node.weights, json.number_list("weights"));
     const size_t targets =
         node.mesh < 0 ? 0 : scene.meshes[static_cast<size_t>(node.mesh)].weights.size();
     if (!node.weights.empty() && node.weights.size() != targets)
         return json.wrong(
             fmt::format("has {} weights for {} morph targets", node.weights.size(), targets));
+    return {};
+}
+
+/// EXT_lights_ies: a light of the node's own. It takes the place of a punctual one, which writers
+/// add for programs that do not know the extension.
+Status read_luminaire_of(const Json& json, const LightProfiles& profiles, Scene& scene,
+                         Node& node) {
+    AG_TRY(std::optional<Light> luminaire, read_luminaire(json, profiles));
+    if (!luminaire) return {};
+    node.light = static_cast<int>(scene.lights.size());
+    scene.lights.push_back(std::move(*luminaire));
     return {};
 }
 
@@ -172,13 +184,16 @@ Status hide_coarse_levels(const std::vector<Json>& list, std::vector<Node>& node
 
 }  // namespace
 
-Status read_nodes(const Json& root, Accessors& accessors, size_t skin_count, Scene& scene) {
+Status read_nodes(const Json& root, Accessors& accessors, size_t skin_count,
+                  const LightProfiles& profiles, Scene& scene) {
     AG_TRY(const std::vector<Json> list, elements(root, "nodes", "node"));
+    const size_t punctual_count = scene.lights.size();
     for (const Json& json : list) {
         Node node;
         AG_TRY(node.name, json.text("name", ""));
         AG_CHECK(read_transform(json, node, scene.warnings));
-        AG_CHECK(read_references(json, skin_count, scene, node));
+        AG_CHECK(read_references(json, skin_count, punctual_count, scene, node));
+        AG_CHECK(read_luminaire_of(json, profiles, scene, node));
         AG_CHECK(read_instances(json, accessors, node, scene.warnings));
         AG_TRY(node.children, json.indices("children", list.size(), "child node"));
         scene.nodes.push_back(std::move(node));
