@@ -10,11 +10,12 @@ namespace aglow {
 /// point counts as hidden when all its rays meet the backs of surfaces that are not double-sided.
 /// Such texels are marked as divided. Where a wall stands across a texel, only the points of its
 /// greater side stay: light of one room does not leak into the next through the floor that both
-/// share. Hidden texels that hang together with texels in the open are no longer covered: the
+/// share. Hidden texels that hang together with texels in the open count as not covered: the
 /// gutter fill of the lightmap then reaches under the object, and no dark seam shows round it. A
 /// texel is given up on the word of 64 rays from each of its points only, so that a floor under a
-/// low one-sided table keeps its light. Cost    two rays per sample point; 8 more for texels that
-/// see a back, 64 more for hidden ones. Repeat  same bits for any thread count.
+/// low one-sided table keeps its light.
+/// Cost    two rays per sample point; 8 more for texels that see a back, 64 more for hidden ones.
+/// Repeat  same bits for any thread count.
 void drop_hidden_points(const Surfaces& surfaces, const Scene& scene, const RayScene& rays,
                         Texels& texels);
 

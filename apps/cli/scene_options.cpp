@@ -39,16 +39,14 @@ Result<SunOption> parse_sun(const std::string& text) {
 }
 
 Result<LightOption> parse_light(const std::string& text) {
-    size_t third = 0;
-    for (int commas = 0; commas < 3 && third != std::string::npos; ++commas)
-        third = text.find(',', third + (commas > 0 ? 1 : 0));
-    const std::string rest = third == std::string::npos ? "" : text.substr(third + 1);
-    const bool is_file = !rest.empty() && !parse_number(rest) && rest.find(',') == rest.npos;
+    const size_t last = text.rfind(',');
+    const std::string source = last == std::string::npos ? "" : text.substr(last + 1);
+    const bool is_file = !source.empty() && !parse_number(source);
     AG_TRY(const std::vector<double> v,
-           is_file ? parse_numbers(text.substr(0, third), 3) : parse_numbers(text, 4));
+           is_file ? parse_numbers(text.substr(0, last), 3) : parse_numbers(text, 4));
     const vec3 position{static_cast<float>(v[0]), static_cast<float>(v[1]),
                         static_cast<float>(v[2])};
-    if (is_file) return LightOption{position, std::filesystem::path(rest)};
+    if (is_file) return LightOption{position, fs::path(source)};
     if (v[3] < 0) return fail(Errc::bad_argument, fmt::format("{} lumen is negative", v[3]));
     return LightOption{position, v[3]};
 }

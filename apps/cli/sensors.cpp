@@ -3,6 +3,7 @@
 
 #include "aglow/core/assert.h"
 #include "aglow/core/file.h"
+#include "aglow/core/text.h"
 #include "options.h"
 
 #include <fmt/format.h>
@@ -13,19 +14,12 @@
 namespace aglow::cli {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-std::string_view trimmed(std::string_view text) {
-    const size_t begin = text.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 Result<Receiver> parse_sensor(std::string_view line) {
     std::string compact;
     for (const char c : line)
-        if (kBlank.find(c) == std::string_view::npos) compact += c;
+        if (kBlanks.find(c) == std::string_view::npos) compact += c;
     const Result<std::vector<double>> numbers = parse_numbers(compact, 6);
     if (!numbers) return fail(Errc::malformed, numbers.error().message);
     const std::vector<double>& v = *numbers;

@@ -2,6 +2,7 @@
 #include "aglow/scene/obj/materials.h"
 
 #include "aglow/core/file.h"
+#include "aglow/core/text.h"
 #include "aglow/scene/gltf/image.h"
 
 #include <fmt/format.h>
@@ -18,11 +19,6 @@ float sane(float v) { return std::isfinite(v) && v > 0 ? v : 0; }
 
 vec3 color(const tinyobj::real_t (&c)[3]) { return {sane(c[0]), sane(c[1]), sane(c[2])}; }
 
-std::string trimmed(const std::string& text) {
-    const size_t begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
-    return begin == std::string::npos ? std::string() : text.substr(begin, end - begin + 1);
-}
-
 /// The file alone: a texture may have been shared by hand without its folders.
 Result<TextureImage> load_image(const std::string& file, const std::filesystem::path& folder) {
     AG_TRY(const std::filesystem::path path, path_in_folder(file, folder));
@@ -37,7 +33,7 @@ Result<TextureImage> load_image(const std::string& file, const std::filesystem::
 Result<std::filesystem::path> path_in_folder(std::string name,
                                              const std::filesystem::path& folder) {
     std::replace(name.begin(), name.end(), '\\', '/');
-    name = trimmed(name);
+    name = std::string(trimmed(name));
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
     const std::filesystem::path path(name);
     const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
@@ -50,7 +46,7 @@ Result<std::filesystem::path> path_in_folder(std::string name,
 
 void MaterialLibrary::add(const tinyobj::material_t& source) {
     Material material;
-    material.name = trimmed(source.name);
+    material.name = std::string(trimmed(source.name));
     const vec3 diffuse = color(source.diffuse);
     const float opacity =
         std::isfinite(source.dissolve) ? std::clamp(source.dissolve, 0.0f, 1.0f) : 1;
@@ -74,7 +70,7 @@ void MaterialLibrary::add(const tinyobj::material_t& source) {
 }
 
 int MaterialLibrary::find(const std::string& name) {
-    const auto [at, is_new] = index_of_.try_emplace(trimmed(name), -1);
+    const auto [at, is_new] = index_of_.try_emplace(std::string(trimmed(name)), -1);
     if (is_new) scene_.warnings.push_back(fmt::format("material \"{}\" does not exist", at->first));
     return at->second;
 }

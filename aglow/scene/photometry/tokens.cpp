@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/photometry/tokens.h"
 
+#include "aglow/core/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,14 +12,7 @@
 namespace aglow::photometry {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
 constexpr std::string_view kSeparators = " \t\r\n\v\f,";
-
-std::string_view trim(std::string_view text) {
-    const size_t begin = text.find_first_not_of(kBlanks);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 }  // namespace
 
@@ -25,7 +20,7 @@ std::vector<std::string_view> split_lines(std::string_view text) {
     std::vector<std::string_view> lines;
     while (!text.empty()) {
         const size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        lines.push_back(trim(text.substr(0, end)));
+        lines.push_back(trimmed(text.substr(0, end)));
         text.remove_prefix(end);
         if (text.starts_with("\r\n"))
             text.remove_prefix(2);
