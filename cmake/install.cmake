@@ -13,6 +13,9 @@ install(EXPORT aglow_targets NAMESPACE aglow:: FILE aglowTargets.cmake DESTINATI
 # Public headers lie directly in their stage, or in a solver's folder of `transport`.
 foreach(stage shared ${stages})
     file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/aglow/${stage}/*.h)
+    if(stage STREQUAL "vk")  # the rest shows Vulkan
+        set(headers ${PROJECT_SOURCE_DIR}/aglow/vk/devices.h)
+    endif()
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aglow/${stage})
 endforeach()
 foreach(solver gather path)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes one header readable by two compilers. C++ side: the slice of GLSL that the shared
-// formulas use. GLSL side: four macros and nothing else.
+// formulas use. GLSL side: six macros and nothing else.
 #ifndef AGLOW_SHARED_GLSL_H
 #define AGLOW_SHARED_GLSL_H
 #ifdef __cplusplus
@@ -10,6 +10,9 @@
 #include <cstdint>
 #define AG_FN inline
 #define AG_CONST inline constexpr
+#define AG_PRECISE
+// T##Ptr is the device address of a T[]; an opaque integer on the CPU.
+#define AG_BUFFER_OF(T) using T##Ptr = std::uint64_t
 #define AG_NAMESPACE_BEGIN namespace aglow::shared {
 #define AG_NAMESPACE_END }
 namespace aglow::shared {
@@ -33,6 +36,10 @@ struct uvec2 {
 struct uvec3 {
     uint x, y, z;
     bool operator==(const uvec3&) const = default;
+};
+struct uvec4 {
+    uint x, y, z, w;
+    bool operator==(const uvec4&) const = default;
 };
 
 inline vec2 operator+(vec2 a, vec2 b) { return {a.x + b.x, a.y + b.y}; }
@@ -86,6 +93,10 @@ inline float atan(float y, float x) { return std::atan2(y, x); }
 #else
 #define AG_FN
 #define AG_CONST const
+// A value whose products are not fused into sums, as they are not in C++ here.
+#define AG_PRECISE precise
+#define AG_BUFFER_OF(T) \
+    layout(buffer_reference, buffer_reference_align = 4, scalar) buffer T##Ptr { T at[]; }
 #define AG_NAMESPACE_BEGIN
 #define AG_NAMESPACE_END
 #endif

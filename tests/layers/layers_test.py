@@ -12,6 +12,8 @@ import sys
 import tempfile
 
 BASE = {"shared", "core"}
+# Of `vk`, all may see the list of devices; the rest shows Vulkan and belongs to gpu/ folders.
+DEVICES = "devices.h"
 MAY_INCLUDE = {
     "shared": set(),
     "core": {"shared"},
@@ -22,7 +24,7 @@ MAY_INCLUDE = {
     "accel": BASE | {"mesh", "refine"},
     "transport": BASE | {"scene", "mesh", "refine", "accel"},
     "encode": BASE | {"scene", "mesh", "refine", "transport"},
-    "render": BASE | {"vk", "scene", "mesh", "refine", "accel", "encode"},
+    "render": BASE | {"scene", "mesh", "refine", "accel", "encode"},
     "bake": BASE | {"scene", "mesh", "refine", "accel", "transport", "encode"},
 }
 PUBLIC_SUBFOLDERS = {("transport", "gather"), ("transport", "path")}
@@ -46,6 +48,8 @@ def backend(folders):
 def allowed(parts, stage, header):
     """May the file at `parts` (from the root) include aglow/<stage>/<header>?"""
     folders = header.split("/")[:-1]
+    if stage == "vk" and header != DEVICES:
+        return "vk" in parts[1:2] or "gpu" in parts[2:-1] or parts[0] not in {"aglow", "apps"}
     if parts[0] == "apps":  # an app sees only what an installed library would show it
         return is_public(stage, folders)
     if parts[0] != "aglow" or len(parts) < 3:  # tests and benchmarks see everything
@@ -53,8 +57,8 @@ def allowed(parts, stage, header):
     mine, my_folders = parts[1], parts[2:-1]
     if stage == mine:
         return True
-    if stage == "vk" and "gpu" in my_folders:
-        return True
+    if stage == "vk":
+        return mine not in {"shared", "core", "scene"}
     if stage not in MAY_INCLUDE[mine]:
         return False
     return is_public(stage, folders) or (
@@ -70,7 +74,8 @@ def violations(root):
         for stage, header in INCLUDE.findall(text):
             if not allowed(parts, stage, header):
                 yield f"{'/'.join(parts)}: may not include aglow/{stage}/{header}"
-        public = parts[0] == "aglow" and len(parts) >= 3 and is_public(parts[1], parts[2:-1])
+        public = parts[0] == "aglow" and len(parts) >= 3 and is_public(parts[1], parts[2:-1]) and (
+            parts[1] != "vk" or parts[-1] == DEVICES)
         if public and path.suffix == ".h" and HIDDEN.search(text):
             yield f"{'/'.join(parts)}: a public header includes {HIDDEN.search(text).group(1)}"
 
@@ -82,12 +87,20 @@ PLANTED = {
     "aglow/bake/b.cpp": '#include "aglow/scene/gltf/json.h"\n',
     "apps/cli/a.cpp": '#include <aglow/transport/gather/cpu/kernel.h>\n',
     "aglow/accel/a.h": "#include <embree3/rtcore.h>\n",
+    "aglow/accel/b.h": '#include "aglow/vk/stream.h"\n',
+    "aglow/scene/c.cpp": '#include "aglow/vk/devices.h"\n',
+    "apps/cli/c.cpp": '#include "aglow/vk/device.h"\n',
+    "aglow/vk/devices.h": "#include <vulkan/vulkan.h>\n",
 }
 FINE = {
     "aglow/transport/gather/cpu/a.cpp": '#include "aglow/accel/cpu/embree_scene.h"\n',
     "aglow/scene/b.cpp": '#include "aglow/scene/gltf/json.h"\n',
     "apps/cli/b.cpp": '#include "aglow/transport/path/path.h"\n',
     "aglow/accel/cpu/a.h": "#include <embree3/rtcore.h>\n",
+    "aglow/accel/gpu/a.cpp": '#include "aglow/vk/stream.h"\n',
+    "aglow/accel/c.h": '#include "aglow/vk/devices.h"\n',
+    "apps/cli/d.cpp": '#include "aglow/vk/devices.h"\n',
+    "aglow/vk/a.h": "#include <vulkan/vulkan.h>\n",
 }
 
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ray-triangle test that lets no ray through between triangles that share an edge.
+//
+// Source: Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. The ray
+// becomes the +z axis by a shear and a permutation of axes; which side of an edge it passes then
+// is the sign of a 2D cross product, which the two triangles of an edge compute from the same
+// products. Both count a zero as inside, so that a ray through an edge hits at least one.
+#ifndef AGLOW_SHARED_TRIANGLE_H
+#define AGLOW_SHARED_TRIANGLE_H
+#include "aglow/shared/ray.h"
+AG_NAMESPACE_BEGIN
+
+// A ray made ready for many triangles.
+struct ShearedRay {
+    vec3 origin;
+    vec3 shear;  // of the permuted axes
+    uint axis;   // the largest component of the direction: 0, 1 or 2
+    uint flip;   // 1 where that component is negative
+};
+
+struct TriangleHit {
+    uint hit;  // 1 where the ray meets the triangle
+    float t;
+    vec2 barycentrics;
+};
+
+// The components x y z of v in the order that makes `axis` the last one, keeping handedness.
+AG_FN vec3 permuted(vec3 v, uint axis, uint flip) {
+    vec3 r = v;
+    if (axis == 0u) {
+        r.x = v.y;
+        r.y = v.z;
+        r.z = v.x;
+    } else if (axis == 1u) {
+        r.x = v.z;
+        r.y = v.x;
+        r.z = v.y;
+    }
+    if (flip != 0u) {
+        float x = r.x;
+        r.x = r.y;
+        r.y = x;
+    }
+    return r;
+}
+
+AG_FN ShearedRay sheared_ray(vec3 origin, vec3 direction) {
+    ShearedRay ray;
+    float x = abs(direction.x);
+    float y = abs(direction.y);
+    float z = abs(direction.z);
+    ray.origin = origin;
+    ray.axis = x > y ? (x > z ? 0u : 2u) : (y > z ? 1u : 2u);
+    float along = ray.axis == 0u ? direction.x : ray.axis == 1u ? direction.y : direction.z;
+    ray.flip = along < 0.0f ? 1u : 0u;
+    vec3 d = permuted(direction, ray.axis, ray.flip);
+    ray.shear.x = d.x / d.z;
+    ray.shear.y = d.y / d.z;
+    ray.shear.z = 1.0f / d.z;
+    return ray;
+}
+
+// Both sides of a triangle are hit; one that the ray sees edge-on, or with a corner that is not
+// finite, is not.
+AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float near, float far) {
+    vec3 a = permuted(triangle.a - ray.origin, ray.axis, ray.flip);
+    vec3 b = permuted(triangle.b - ray.origin, ray.axis, ray.flip);
+    vec3 c = permuted(triangle.c - ray.origin, ray.axis, ray.flip);
+    AG_PRECISE float ax = a.x - ray.shear.x * a.z;
+    AG_PRECISE float ay = a.y - ray.shear.y * a.z;
+    AG_PRECISE float bx = b.x - ray.shear.x * b.z;
+    AG_PRECISE float by = b.y - ray.shear.y * b.z;
+    AG_PRECISE float cx = c.x - ray.shear.x * c.z;
+    AG_PRECISE float cy = c.y - ray.shear.y * c.z;
+    AG_PRECISE float u = cx * by - cy * bx;
+    AG_PRECISE float v = ax * cy - ay * cx;
+    AG_PRECISE float w = bx * ay - by * ax;
+
+    TriangleHit result;
+    result.hit = 0u;
+    result.t = far;
+    result.barycentrics.x = 0.0f;
+    result.barycentrics.y = 0.0f;
+    if ((u < 0.0f || v < 0.0f || w < 0.0f) && (u > 0.0f || v > 0.0f || w > 0.0f)) return result;
+    float determinant = u + v + w;
+    if (determinant == 0.0f) return result;
+    float scale = 1.0f / determinant;
+    float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * scale;
+    if (!(t > near && t < far)) return result;
+    result.hit = 1u;
+    result.t = t;
+    result.barycentrics.x = v * scale;
+    result.barycentrics.y = w * scale;
+    return result;
+}
+
+AG_NAMESPACE_END
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/vk/buffer.h"
+#include "aglow/vk/devices.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace aglow::vk {
+
+class Instance;
+class MemoryPool;
+
+/// Failures that tests ask for. Counts start at 0; -1: never.
+struct Faults {
+    int fail_allocation = -1;  ///< this buffer cannot be had: out of memory
+    int lose_at_submit = -1;   ///< this submit and all that follow: the device is lost
+};
+
+struct DeviceOptions {
+    std::string name;       ///< part of the device's name; see open_gpu()
+    bool validate = false;  ///< validation and synchronisation validation; see messages()
+    Faults faults = {};
+};
+
+/// One Vulkan device with one compute queue. Outlives everything that is made from it: makers keep
+/// the Gpu they were given, or are kept by something that does.
+/// Thread safety  all members may be called from any thread.
+class Device {
+public:
+    static Result<Gpu> open(const DeviceOptions& options);
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    ~Device();
+
+    VkDevice get() const { return device_; }
+    const GpuInfo& info() const { return info_; }
+    uint32_t subgroup_size() const { return info_.subgroup_size; }
+    /// Length of one step of a timestamp, ns; 0: the queue has no timestamps.
+    float timestamp_period() const { return timestamp_period_; }
+
+    /// Memory of `bytes` (at least 4 are given) that shaders reach by its address. `name` appears
+    /// in errors and in the driver's tools.
+    /// Errors  out_of_memory; names the buffer, the bytes asked for and those in use.
+    Result<Buffer> make_buffer(uint64_t bytes, std::string_view name,
+                               Memory memory = Memory::device);
+
+    /// Bytes of all buffers alive, and the most there have been.
+    uint64_t bytes_in_use() const;
+    uint64_t peak_bytes() const;
+
+    /// Hands work to the queue and signals `done` with `value`.
+    /// Errors  device_lost, out_of_memory; `what` names the pass.
+    Status submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value,
+                  std::string_view what);
+
+    /// How many buffers were asked for and how often work was submitted: the range of Faults.
+    int allocation_count() const;
+    int submit_count() const;
+
+    /// What the validation layers said so far; tests demand that it is nothing.
+    std::vector<std::string> messages() const;
+
+private:
+    Device() = default;
+    // ... to be filled in
+    VkDevice device_ = VK_NULL_HANDLE;
+    GpuInfo info_;
+    float timestamp_period_ = 0;
+};
+
+}  // namespace aglow::vk

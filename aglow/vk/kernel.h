@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/vk/devices.h"
+#include "aglow/vk/handle.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace aglow::vk {
+
+struct KernelRate;  // what a Stream has measured of it
+
+/// A compute shader. All it reads and writes arrives in one struct of push constants, at most 128
+/// bytes of scalar layout, whose first member is `uint first_group`: a stream may run the groups of
+/// one dispatch in several pieces and sets first_group for each. Shaders include
+/// aglow/vk/kernel.glsl and call group_index() instead of reading gl_WorkGroupID.
+/// Lifetime  must outlive every stream it ran in until that stream's finish().
+class Kernel {
+public:
+    /// `constants[i]` is the value of constant_id i.
+    /// Errors  unsupported (the device's compiler refuses it), out_of_memory.
+    static Result<Kernel> create(const Gpu& gpu, std::string_view name,
+                                 std::span<const uint32_t> spirv,
+                                 std::span<const uint32_t> constants = {});
+    Kernel(Kernel&&) noexcept;
+    Kernel& operator=(Kernel&&) noexcept;
+    ~Kernel();
+
+    const std::string& name() const { return name_; }
+    VkPipeline pipeline() const { return pipeline_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+    KernelRate& rate() const { return *rate_; }
+
+private:
+    Kernel() = default;
+    Gpu gpu_;
+    std::string name_;
+    PipelineLayout layout_;
+    Pipeline pipeline_;
+    std::unique_ptr<KernelRate> rate_;
+};
+
+/// How many groups of `size` cover `count` items.
+inline uint64_t group_count(uint64_t count, uint64_t size) { return (count + size - 1) / size; }
+
+}  // namespace aglow::vk

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/vk/buffer.h"
+#include "aglow/vk/devices.h"
+#include "aglow/vk/kernel.h"
+
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace aglow::vk {
+
+/// GPU time of one kernel under one label.
+struct Timing {
+    std::string label;   ///< of the scope that was open, "" outside of one
+    std::string kernel;  ///< "copy" and "fill" for those
+    double seconds = 0;
+    uint64_t dispatches = 0;
+};
+
+/// Work for the device in the order it is given. Members that record cannot fail: the first failure
+/// (device lost, no staging memory) is kept and returned by finish(), and what follows it is
+/// dropped. Work is submitted in pieces that are expected to take less than 100 ms, judged by the
+/// time that each kernel's groups took before; a dispatch that takes longer is split.
+///
+/// Synchronisation  Work between two barrier() calls may overlap. barrier() makes all writes before
+///                  it visible to all that follows. copies and fills count as work like any other.
+/// Thread safety    one thread at a time; several streams may run at once.
+class Stream {
+public:
+    static Result<Stream> create(const Gpu& gpu);
+    Stream(Stream&&) noexcept;
+    Stream& operator=(Stream&&) noexcept;
+    ~Stream();  ///< waits for what was submitted
+
+    /// Runs `groups` groups of the kernel. `args` is copied; its first member is first_group.
+    template <class Args>
+    void run(const Kernel& kernel, Args args, uint64_t groups) {
+        static_assert(std::is_trivially_copyable_v<Args> && sizeof(Args) <= 128);
+        static_assert(std::is_same_v<decltype(args.first_group), uint32_t>);
+        run_bytes(kernel, {reinterpret_cast<const std::byte*>(&args), sizeof args}, groups);
+    }
+
+    void barrier();
+    /// Offsets and sizes in bytes, multiples of 4.
+    void fill(const Buffer& buffer, uint32_t value, uint64_t offset, uint64_t bytes);
+    void copy(const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
+              uint64_t bytes);
+    /// Copies `data` at once into staging memory, and from there to the buffer when it runs.
+    void upload_bytes(std::span<const std::byte> data, const Buffer& to, uint64_t to_offset);
+    template <class T>
+    void upload(std::span<const T> data, const Buffer& to, uint64_t to_offset = 0) {
+        upload_bytes(std::as_bytes(data), to, to_offset);
+    }
+
+    /// Submits all and waits for it.
+    /// Errors  device_lost, out_of_memory; names the kernel. A stream stays failed.
+    Status finish();
+    /// finish(), then the buffer's content. Orders itself after all that was recorded.
+    Status download_bytes(const Buffer& from, uint64_t from_offset, std::span<std::byte> to);
+    template <class T>
+    Result<std::vector<T>> download(const Buffer& from, uint64_t count, uint64_t first = 0) {
+        std::vector<T> values(count);
+        AG_CHECK(
+            download_bytes(from, first * sizeof(T), std::as_writable_bytes(std::span(values))));
+        return values;
+    }
+
+    /// Work recorded while the scope lives is timed under its label. Scopes do not nest.
+    class Scope {
+    public:
+        Scope(Stream& stream, std::string_view label) : stream_(stream) { stream.label(label); }
+        ~Scope() { stream_.label({}); }
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+    private:
+        Stream& stream_;
+    };
+    void label(std::string_view label);
+    /// What finished since the last call, in order of first appearance; then forgotten.
+    std::vector<Timing> take_timings();
+
+    const Gpu& gpu() const;
+
+private:
+    struct State;
+    explicit Stream(std::unique_ptr<State> state);
+    void run_bytes(const Kernel& kernel, std::span<const std::byte> args, uint64_t groups);
+
+    std::unique_ptr<State> state_;
+};
+
+/// A buffer that holds `data`. Errors: out_of_memory.
+template <class T>
+Result<Buffer> make_buffer_of(Stream& stream, std::span<const T> data, std::string_view name);
+
+}  // namespace aglow::vk
