@@ -41,6 +41,11 @@ public:
         return build(stream, triangles);
     }
 
+    /// An empty structure of the same kind. It shares this one's kernels and scratch memory (both
+    /// held by shared_ptr), so that a scene may hold thousands: a barrier has to stand between the
+    /// builds of structures that share.
+    virtual std::unique_ptr<Structure> sibling() const = 0;
+
     virtual uint64_t header() const = 0;  ///< address for shared::Instance
     virtual StructureStats stats() const = 0;
 };
