@@ -9,8 +9,16 @@
 
 namespace aglow {
 
+/// The lobe of highlights.
+enum class Shading : uint8_t {
+    metallic_roughness,  ///< GGX facets, as glTF defines
+    phong,               ///< a normalised Phong lobe as wide as these make it
+};
+
 struct RaysOptions {
-    int samples = 16;  ///< rays per pixel, evenly spread over the filter
+    int samples = 16;     ///< rays per pixel, evenly spread over the filter
+    int reflections = 2;  ///< mirror rays that follow each other; 0: no reflections or highlights
+    Shading shading = Shading::metallic_roughness;
     uint64_t seed = 0;
 };
 

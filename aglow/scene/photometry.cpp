@@ -2,6 +2,7 @@
 #include "aglow/scene/photometry.h"
 
 #include "aglow/scene/photometry/formats.h"
+#include "aglow/shared/light.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -60,11 +61,8 @@ Result<Photometry> read_photometry(std::span<const uint8_t> file) {
 }
 
 float intensity(const Photometry& photometry, vec3 direction) {
-    constexpr float kDegrees = 180 / kPi;
-    const float across = std::sqrt(direction.x * direction.x + direction.y * direction.y);
-    const float gamma = std::atan2(across, -direction.z) * kDegrees;
+    const auto [gamma, turned] = shared::photometric_angles(direction);
     if (gamma < photometry.gamma.front() || gamma > photometry.gamma.back()) return 0;
-    const float turned = std::atan2(direction.y, direction.x) * kDegrees;
     const Place c = place_of(photometry.c, into_turn(photometry.c, turned));
     const Place g = place_of(photometry.gamma, gamma);
     const float a = along_c(photometry, g.below, c);

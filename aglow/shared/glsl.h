@@ -82,12 +82,15 @@ inline vec3 min(vec3 a, vec3 b) { return {min(a.x, b.x), min(a.y, b.y), min(a.z,
 inline vec3 max(vec3 a, vec3 b) { return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)}; }
 inline float mix(float a, float b, float t) { return a * (1.0f - t) + b * t; }
 inline vec3 mix(vec3 a, vec3 b, float t) { return a * (1.0f - t) + b * t; }
+inline vec4 mix(vec4 a, vec4 b, float t) { return a * (1.0f - t) + b * t; }
 inline float abs(float v) { return std::fabs(v); }
 inline float sqrt(float v) { return std::sqrt(v); }
 inline float sin(float v) { return std::sin(v); }
 inline float cos(float v) { return std::cos(v); }
 inline float acos(float v) { return std::acos(v); }
 inline float floor(float v) { return std::floor(v); }
+inline float pow(float v, float e) { return std::pow(v, e); }
+inline float log2(float v) { return std::log2(v); }
 inline float atan(float y, float x) { return std::atan2(y, x); }
 }  // namespace aglow::shared
 #else

@@ -34,5 +34,22 @@ AG_FN vec3 cosine_hemisphere(vec2 u) {
     return result;
 }
 
+// `local`, given in a frame whose z is the unit vector n, in the space of n.
+// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017.
+AG_FN vec3 around_normal(vec3 local, vec3 n) {
+    float side = n.z >= 0.0f ? 1.0f : -1.0f;
+    float a = -1.0f / (side + n.z);
+    float b = n.x * n.y * a;
+    vec3 tangent;
+    tangent.x = 1.0f + side * n.x * n.x * a;
+    tangent.y = side * b;
+    tangent.z = -side * n.x;
+    vec3 bitangent;
+    bitangent.x = b;
+    bitangent.y = side + n.y * n.y * a;
+    bitangent.z = -n.y;
+    return tangent * local.x + bitangent * local.y + n * local.z;
+}
+
 AG_NAMESPACE_END
 #endif

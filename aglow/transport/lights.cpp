@@ -1,85 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/transport/lights.h"
 
-#include "aglow/scene/photometry.h"
+#include "aglow/scene/punctual_lights.h"
 #include "aglow/transport/lights/emitters.h"
 #include "aglow/transport/lights/sky_distribution.h"
 
 #include <cmath>
 
 namespace aglow {
-namespace {
-
-struct Delta {
-    LightKind kind;
-    vec3 position;
-    vec3 axis;  ///< unit, along which it shines
-    vec3 intensity;
-    float cone_scale = 0, cone_offset = 1;  ///< KHR_lights_punctual, inner and outer cone angles
-    const Photometry* photometry = nullptr;
-    vec3 right = {1, 0, 0}, up = {0, 1, 0};  ///< unit, of the photometry's C0 and C90
-};
-
-Delta make_delta(const Light& light, const mat4& to_world) {
-    Delta delta{light.kind, transform_point(to_world, {0, 0, 0}),
-                normalize(transform_direction(to_world, {0, 0, -1})), light.intensity};
-    if (light.kind == LightKind::spot) {
-        const float cos_inner = std::cos(light.inner_cone), cos_outer = std::cos(light.outer_cone);
-        delta.cone_scale = 1 / std::max(0.001f, cos_inner - cos_outer);
-        delta.cone_offset = -cos_outer * delta.cone_scale;
-    }
-    if (light.kind == LightKind::photometric) {
-        // The node's scale does not count, but a mirror turns C the other way round.
-        delta.photometry = light.photometry.get();
-        delta.right = normalize(transform_direction(to_world, {1, 0, 0}));
-        delta.up = normalize(transform_direction(to_world, {0, 1, 0}));
-    }
-    return delta;
-}
-
-float cone_attenuation(const Delta& delta, vec3 from_light) {
-    const float t = shared::clamp(
-        dot(delta.axis, from_light) * delta.cone_scale + delta.cone_offset, 0.0f, 1.0f);
-    return t * t;
-}
-
-/// What a light's own intensity is multiplied with along a direction away from it.
-float distribution(const Delta& delta, vec3 from_light) {
-    switch (delta.kind) {
-        case LightKind::spot:
-            return cone_attenuation(delta, from_light);
-        case LightKind::photometric:
-            return intensity(*delta.photometry,
-                             {dot(from_light, delta.right), dot(from_light, delta.up),
-                              -dot(from_light, delta.axis)});
-        default:
-            return 1;
-    }
-}
-
-}  // namespace
 
 struct Lights::Data {
     const Scene& scene;
     transport::Emitters emitters;
-    std::vector<Delta> deltas = {};
+    std::vector<PlacedLight> deltas = {};
     transport::SkyDistribution sky_image = {};
-
-    void collect_deltas(const std::vector<mat4>& transforms);
 };
 
-void Lights::Data::collect_deltas(const std::vector<mat4>& transforms) {
-    for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Node& node = scene.nodes[i];
-        if (!node.in_scene || node.light < 0) continue;
-        const Light& light = scene.lights[static_cast<size_t>(node.light)];
-        if (luminance(light.intensity) > 0) deltas.push_back(make_delta(light, transforms[i]));
-    }
-}
-
 Lights::Lights(const Scene& scene, const Surfaces& surfaces, const std::vector<mat4>& transforms)
-    : data_(new Data{scene, transport::Emitters(scene, surfaces)}) {
-    data_->collect_deltas(transforms);
+    : data_(new Data{scene, transport::Emitters(scene, surfaces),
+                     punctual_lights(scene, transforms)}) {
     if (has_sky() && scene.sky->image)
         data_->sky_image = transport::SkyDistribution(*scene.sky->image);
 }
@@ -90,15 +29,10 @@ Lights::~Lights() = default;
 size_t Lights::delta_count() const { return data_->deltas.size(); }
 
 LightSample Lights::delta(size_t i, vec3 p) const {
-    const Delta& delta = data_->deltas[i];
-    if (delta.kind == LightKind::directional) return {-delta.axis, kInfinity, delta.intensity, 0};
-    const vec3 to_light = delta.position - p;
-    const float distance = length(to_light);
-    if (!(distance > 0)) return {};
-    const vec3 direction = to_light / distance;
-    const vec3 candela = delta.intensity * distribution(delta, -direction);
-    // Dividing twice keeps the square of a very small or large distance in range.
-    return {direction, distance, candela / distance / distance, 0};
+    const shared::LightArrival light = arrival(data_->deltas[i], p);
+    if (!(light.distance > 0)) return {};
+    const bool sun = data_->deltas[i].light.kind == shared::kLightDirectional;
+    return {light.direction, sun ? kInfinity : light.distance, light.normal_irradiance, 0};
 }
 
 bool Lights::has_emitters() const { return !data_->emitters.empty(); }
