@@ -3,7 +3,10 @@
 #include "aglow/core/result.h"
 #include "aglow/vk/buffer.h"
 #include "aglow/vk/devices.h"
+#include "aglow/vk/messages.h"
+#include "aglow/vk/physical_device.h"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,7 +16,6 @@
 namespace aglow::vk {
 
 class Instance;
-class MemoryPool;
 
 /// Failures that tests ask for. Counts start at 0; -1: never.
 struct Faults {
@@ -24,6 +26,9 @@ struct Faults {
 struct DeviceOptions {
     std::string name;       ///< part of the device's name; see open_gpu()
     bool validate = false;  ///< validation and synchronisation validation; see messages()
+    /// Where the messages go; one of its own if null. Keep it to hear what leaks.
+    std::shared_ptr<Messages> messages = nullptr;
+    bool timestamps = true;  ///< false: do as on a queue that has none
     Faults faults = {};
 };
 
@@ -38,10 +43,11 @@ public:
     ~Device();
 
     VkDevice get() const { return device_; }
-    const GpuInfo& info() const { return info_; }
-    uint32_t subgroup_size() const { return info_.subgroup_size; }
+    const GpuInfo& info() const { return physical_.info; }
+    const PhysicalDevice& physical() const { return physical_; }
+    uint32_t subgroup_size() const { return physical_.info.subgroup_size; }
     /// Length of one step of a timestamp, ns; 0: the queue has no timestamps.
-    float timestamp_period() const { return timestamp_period_; }
+    float timestamp_period() const { return physical_.timestamp_period; }
 
     /// Memory of `bytes` (at least 4 are given) that shaders reach by its address. `name` appears
     /// in errors and in the driver's tools.
@@ -58,6 +64,13 @@ public:
     Status submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value,
                   std::string_view what);
 
+    /// Waits until work that was submitted has signalled `value`.
+    /// Errors  device_lost; `what` names the pass.
+    Status wait(VkSemaphore done, uint64_t value, std::string_view what);
+
+    /// Gives an object a name in the driver's tools and in messages().
+    void set_name(VkObjectType type, uint64_t object, std::string_view name) const;
+
     /// How many buffers were asked for and how often work was submitted: the range of Faults.
     int allocation_count() const;
     int submit_count() const;
@@ -67,10 +80,21 @@ public:
 
 private:
     Device() = default;
-    // ... to be filled in
+    Status open_device(const DeviceOptions& options);
+    tl::unexpected<Error> lost(std::string_view what);
+
+    std::shared_ptr<Messages> messages_;
+    std::unique_ptr<Instance> instance_;
+    PhysicalDevice physical_;
     VkDevice device_ = VK_NULL_HANDLE;
-    GpuInfo info_;
-    float timestamp_period_ = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    std::unique_ptr<MemoryPool> pool_;
+    Faults faults_;
+    std::atomic<int> allocation_count_ = 0;
+    std::atomic<bool> lost_ = false;
+    mutable std::mutex queue_mutex_;  // of queue_ and submit_count_
+    VkQueue queue_ = VK_NULL_HANDLE;
+    int submit_count_ = 0;
 };
 
 }  // namespace aglow::vk

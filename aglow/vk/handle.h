@@ -15,8 +15,9 @@ public:
     Handle(Handle&& other) noexcept
         : device_(other.device_), object_(std::exchange(other.object_, T{})) {}
     Handle& operator=(Handle&& other) noexcept {
-        std::swap(device_, other.device_);
-        std::swap(object_, other.object_);
+        Handle taken(std::move(other));  // what this held dies with it, before the caller goes on
+        std::swap(device_, taken.device_);
+        std::swap(object_, taken.object_);
         return *this;
     }
     Handle(const Handle&) = delete;

@@ -12,7 +12,7 @@
 
 namespace aglow::vk {
 
-struct KernelRate;  // what a Stream has measured of it
+class KernelRate;  // what streams have measured of it
 
 /// A compute shader. All it reads and writes arrives in one struct of push constants, at most 128
 /// bytes of scalar layout, whose first member is `uint first_group`: a stream may run the groups of

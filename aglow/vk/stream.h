@@ -85,8 +85,13 @@ public:
     void label(std::string_view label);
     /// What finished since the last call, in order of first appearance; then forgotten.
     std::vector<Timing> take_timings();
+    /// GPU time of each submit that finished since the last call, s; then forgotten.
+    std::vector<double> take_submit_seconds();
 
     const Gpu& gpu() const;
+    /// gpu()->make_buffer().
+    Result<Buffer> make_buffer(uint64_t bytes, std::string_view name,
+                               Memory memory = Memory::device);
 
 private:
     struct State;
@@ -96,8 +101,12 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// A buffer that holds `data`. Errors: out_of_memory.
+/// A buffer that holds `data` once a barrier() follows. Errors: out_of_memory.
 template <class T>
-Result<Buffer> make_buffer_of(Stream& stream, std::span<const T> data, std::string_view name);
+Result<Buffer> make_buffer_of(Stream& stream, std::span<const T> data, std::string_view name) {
+    AG_TRY(Buffer buffer, stream.make_buffer(data.size_bytes(), name));
+    stream.upload(data, buffer);
+    return buffer;
+}
 
 }  // namespace aglow::vk

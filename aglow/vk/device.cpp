@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/vk/device.h"
+
+#include "aglow/vk/failure.h"
+#include "aglow/vk/instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace aglow::vk {
+
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+std::string names_of(const std::vector<PhysicalDevice>& devices) {
+    std::string names;
+    for (const PhysicalDevice& device : devices)
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", device.info.name);
+    return names;
+}
+
+Result<PhysicalDevice> choose(const std::vector<PhysicalDevice>& devices, const std::string& name) {
+    if (devices.empty()) {
+        return fail(Errc::unsupported,
+                    "Vulkan offers no device; install a driver (mesa-vulkan-drivers has one that "
+                    "needs no graphics card)");
+    }
+    auto named = [&](const PhysicalDevice& device) {
+        return lower(device.info.name).find(lower(name)) != std::string::npos;
+    };
+    auto found = std::find_if(devices.begin(), devices.end(), named);
+    if (found == devices.end()) {
+        return fail(Errc::unsupported,
+                    fmt::format("no GPU is called \"{}\"; there is {}", name, names_of(devices)));
+    }
+    if (!found->info.missing.empty()) {
+        return fail(Errc::unsupported,
+                    fmt::format("GPU \"{}\" lacks {}; a newer driver may have it", found->info.name,
+                                found->info.missing));
+    }
+    return *found;
+}
+
+Result<VkDevice> create_device(const PhysicalDevice& physical) {
+    VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};
+    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
+    subgroups.subgroupSizeControl = VK_TRUE;
+    subgroups.computeFullSubgroups = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    features.pNext = physical.full_subgroups ? &subgroups : nullptr;
+    features.bufferDeviceAddress = VK_TRUE;
+    features.scalarBlockLayout = VK_TRUE;
+    features.timelineSemaphore = VK_TRUE;
+    features.hostQueryReset = VK_TRUE;
+    VkPhysicalDeviceFeatures2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    all.pNext = &features;
+    all.features.shaderInt64 = physical.int64;
+
+    float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = physical.queue_family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    const char* extension = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &all;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = physical.full_subgroups_extension ? 1 : 0;
+    info.ppEnabledExtensionNames = &extension;
+    VkDevice device = VK_NULL_HANDLE;
+    VkResult result = vkCreateDevice(physical.handle, &info, nullptr, &device);
+    if (result != VK_SUCCESS)
+        return failure(result, fmt::format("opening GPU \"{}\"", physical.info.name));
+    return device;
+}
+
+}  // namespace
+
+Result<Gpu> Device::open(const DeviceOptions& options) {
+    Gpu gpu(new Device);
+    AG_CHECK(gpu->open_device(options));
+    return gpu;
+}
+
+Status Device::open_device(const DeviceOptions& options) {
+    if (options.validate) {
+        messages_ = options.messages ? options.messages : std::make_shared<Messages>();
+    }
+    AG_TRY(instance_, Instance::create(messages_));
+    AG_TRY(physical_, choose(instance_->devices(), options.name));
+    AG_TRY(device_, create_device(physical_));
+    vkGetDeviceQueue(device_, physical_.queue_family, 0, &queue_);
+    if (!options.timestamps) physical_.timestamp_period = 0;
+    if (messages_) {
+        set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+            vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
+    }
+    pool_ = std::make_unique<MemoryPool>(physical_.handle, device_, physical_.max_allocation_bytes);
+    faults_ = options.faults;
+    return {};
+}
+
+Device::~Device() {
+    pool_.reset();
+    if (device_) vkDestroyDevice(device_, nullptr);
+}
+
+Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory memory) {
+    bytes = std::max<uint64_t>(bytes, 4);
+    if (allocation_count_++ == faults_.fail_allocation) {
+        return fail(Errc::out_of_memory,
+                    fmt::format("buffer \"{}\" needs {} bytes of GPU memory, and tests ask that "
+                                "there is none; {} are in use",
+                                name, bytes, bytes_in_use()));
+    }
+    if (bytes > physical_.max_allocation_bytes) return pool_->too_large(bytes, name);
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = bytes;
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkBuffer handle = VK_NULL_HANDLE;
+    VkResult result = vkCreateBuffer(device_, &info, nullptr, &handle);
+    if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
+    Buffer buffer;
+    buffer.pool_ = pool_.get();
+    buffer.buffer_ = BufferHandle(device_, handle);
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device_, handle, &needs);
+    AG_TRY(buffer.allocation_, pool_->allocate(needs, memory, name));
+    result =
+        vkBindBufferMemory(device_, handle, buffer.allocation_.memory, buffer.allocation_.offset);
+    if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
+    VkBufferDeviceAddressInfo whose{};
+    whose.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    whose.buffer = handle;
+    buffer.address_ = vkGetBufferDeviceAddress(device_, &whose);
+    buffer.size_ = bytes;
+    set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
+    return buffer;
+}
+
+void Device::set_name(VkObjectType type, uint64_t object, std::string_view name) const {
+    if (!set_name_) return;
+    std::string text(name);
+    VkDebugUtilsObjectNameInfoEXT info{};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = text.c_str();
+    set_name_(device_, &info);
+}
+
+tl::unexpected<Error> Device::lost(std::string_view what) {
+    lost_ = true;
+    return failure(VK_ERROR_DEVICE_LOST, fmt::format("\"{}\" ran {}", info().name, what));
+}
+
+Status Device::submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value,
+                      std::string_view what) {
+    VkTimelineSemaphoreSubmitInfo values{};
+    values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+    values.signalSemaphoreValueCount = 1;
+    values.pSignalSemaphoreValues = &value;
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.pNext = &values;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands;
+    info.signalSemaphoreCount = 1;
+    info.pSignalSemaphores = &done;
+
+    std::lock_guard lock(queue_mutex_);
+    bool injected = faults_.lose_at_submit >= 0 && submit_count_ >= faults_.lose_at_submit;
+    ++submit_count_;
+    if (lost_ || injected) return lost(what);
+    VkResult result = vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE);
+    if (result == VK_ERROR_DEVICE_LOST) return lost(what);
+    if (result != VK_SUCCESS) return failure(result, fmt::format("submitting {}", what));
+    return {};
+}
+
+Status Device::wait(VkSemaphore done, uint64_t value, std::string_view what) {
+    VkSemaphoreWaitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+    info.semaphoreCount = 1;
+    info.pSemaphores = &done;
+    info.pValues = &value;
+    VkResult result = vkWaitSemaphores(device_, &info, UINT64_MAX);
+    if (result == VK_ERROR_DEVICE_LOST) return lost(what);
+    if (result != VK_SUCCESS) return failure(result, fmt::format("waiting for {}", what));
+    return {};
+}
+
+uint64_t Device::bytes_in_use() const { return pool_->bytes_in_use(); }
+uint64_t Device::peak_bytes() const { return pool_->peak_bytes(); }
+int Device::allocation_count() const { return allocation_count_; }
+
+int Device::submit_count() const {
+    std::lock_guard lock(queue_mutex_);
+    return submit_count_;
+}
+
+std::vector<std::string> Device::messages() const {
+    return messages_ ? messages_->list() : std::vector<std::string>{};
+}
+
+}  // namespace aglow::vk

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/vk/kernel.h"
+
+#include "aglow/vk/device.h"
+#include "aglow/vk/failure.h"
+#include "aglow/vk/kernel_rate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+namespace aglow::vk {
+
+namespace {
+
+constexpr uint32_t kPushBytes = 128;  // every device has as many
+constexpr uint32_t kSpirvMagic = 0x07230203;
+
+struct GroupSize {
+    uint32_t x = 0, y = 0, z = 0;
+};
+
+/// The group size that a shader declares; 0 where a constant decides it.
+GroupSize group_size(std::span<const uint32_t> spirv) {
+    constexpr uint32_t kOpExecutionMode = 16, kLocalSize = 17, kOpSpecConstantComposite = 51;
+    GroupSize size;
+    for (size_t at = 5; at < spirv.size();) {
+        uint32_t words = spirv[at] >> 16, op = spirv[at] & 0xffff;
+        if (words == 0) break;
+        if (op == kOpSpecConstantComposite) return {};
+        if (op == kOpExecutionMode && words == 6 && at + 6 <= spirv.size() &&
+            spirv[at + 2] == kLocalSize)
+            size = {spirv[at + 3], spirv[at + 4], spirv[at + 5]};
+        at += words;
+    }
+    return size;
+}
+
+Result<ShaderModule> make_module(VkDevice device, std::span<const uint32_t> spirv,
+                                 std::string_view doing) {
+    VkShaderModuleCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    info.codeSize = spirv.size_bytes();
+    info.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    VkResult result = vkCreateShaderModule(device, &info, nullptr, &module);
+    if (result != VK_SUCCESS) return failure(result, doing);
+    return ShaderModule(device, module);
+}
+
+Result<PipelineLayout> make_layout(VkDevice device, std::string_view doing) {
+    VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kPushBytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &range;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkResult result = vkCreatePipelineLayout(device, &info, nullptr, &layout);
+    if (result != VK_SUCCESS) return failure(result, doing);
+    return PipelineLayout(device, layout);
+}
+
+Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelineLayout layout,
+                               std::span<const uint32_t> constants, bool full_subgroups,
+                               std::string_view doing) {
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * 4, 4});
+    VkSpecializationInfo values{};
+    values.mapEntryCount = static_cast<uint32_t>(entries.size());
+    values.pMapEntries = entries.data();
+    values.dataSize = constants.size_bytes();
+    values.pData = constants.data();
+
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = constants.empty() ? nullptr : &values;
+    if (full_subgroups)
+        info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkResult result =
+        vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        return failure(result, doing);
+    if (result != VK_SUCCESS) {
+        return fail(Errc::unsupported, fmt::format("the driver refused (Vulkan error {}) {}; a "
+                                                   "newer driver may take it",
+                                                   static_cast<int>(result), doing));
+    }
+    return Pipeline(device, pipeline);
+}
+
+}  // namespace
+
+Kernel::Kernel(Kernel&&) noexcept = default;
+Kernel& Kernel::operator=(Kernel&&) noexcept = default;
+Kernel::~Kernel() = default;
+
+Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
+                              std::span<const uint32_t> spirv,
+                              std::span<const uint32_t> constants) {
+    std::string doing = fmt::format("compiling kernel \"{}\"", name);
+    if (spirv.size() < 5 || spirv[0] != kSpirvMagic)
+        return fail(Errc::unsupported, fmt::format("kernel \"{}\" is no SPIR-V", name));
+    GroupSize size = group_size(spirv);
+    uint64_t invocations = uint64_t{size.x} * size.y * size.z;
+    if (invocations > gpu->physical().max_group_size) {
+        return fail(
+            Errc::unsupported,
+            fmt::format("kernel \"{}\" has {} invocations in a group; GPU \"{}\" takes {}", name,
+                        invocations, gpu->info().name, gpu->physical().max_group_size));
+    }
+    bool full_subgroups =
+        gpu->physical().full_subgroups && size.x > 0 && size.x % gpu->subgroup_size() == 0;
+    Kernel kernel;
+    kernel.gpu_ = gpu;
+    kernel.name_ = name;
+    AG_TRY(ShaderModule module, make_module(gpu->get(), spirv, doing));
+    AG_TRY(kernel.layout_, make_layout(gpu->get(), doing));
+    AG_TRY(kernel.pipeline_, make_pipeline(gpu->get(), module.get(), kernel.layout_.get(),
+                                           constants, full_subgroups, doing));
+    kernel.rate_ = std::make_unique<KernelRate>();
+    gpu->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kernel.pipeline()), name);
+    return kernel;
+}
+
+}  // namespace aglow::vk

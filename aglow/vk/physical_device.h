@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/vk/devices.h"
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+
+namespace aglow::vk {
+
+/// A device that a driver offers, and what opening it needs to know.
+struct PhysicalDevice {
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    GpuInfo info;
+    uint32_t queue_family = 0;              ///< one that computes
+    bool full_subgroups = false;            ///< they can be required of a kernel
+    bool full_subgroups_extension = false;  ///< and that takes an extension
+    bool int64 = false;                     ///< shaders have 64-bit integers
+    float timestamp_period = 0;             ///< ns; 0: the queue has no timestamps
+    uint64_t timestamp_mask = 0;            ///< the bits of a timestamp that count
+    uint64_t max_allocation_bytes = 0;      ///< of one piece of memory
+    uint32_t max_group_size = 0;            ///< invocations
+};
+
+PhysicalDevice examine(VkPhysicalDevice handle);
+
+/// Is `a` before `b` in list_gpus()?
+bool better(const PhysicalDevice& a, const PhysicalDevice& b);
+
+}  // namespace aglow::vk
