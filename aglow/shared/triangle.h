@@ -4,7 +4,10 @@
 // Source: Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013. The ray
 // becomes the +z axis by a shear and a permutation of axes; which side of an edge it passes then
 // is the sign of a 2D cross product, which the two triangles of an edge compute from the same
-// products. Both count a zero as inside, so that a ray through an edge hits at least one.
+// products. Rounding is monotone, so the difference of two rounded products has the right sign or
+// is zero, whatever underflows; zero counts as inside, so that a ray through an edge hits at least
+// one of its triangles. Which way a triangle turns does not matter, so neither does the handedness
+// of the permuted axes.
 #ifndef AGLOW_SHARED_TRIANGLE_H
 #define AGLOW_SHARED_TRIANGLE_H
 #include "aglow/shared/ray.h"
@@ -15,7 +18,6 @@ struct ShearedRay {
     vec3 origin;
     vec3 shear;  // of the permuted axes
     uint axis;   // the largest component of the direction: 0, 1 or 2
-    uint flip;   // 1 where that component is negative
 };
 
 struct TriangleHit {
@@ -24,24 +26,27 @@ struct TriangleHit {
     vec2 barycentrics;
 };
 
-// The components x y z of v in the order that makes `axis` the last one, keeping handedness.
-AG_FN vec3 permuted(vec3 v, uint axis, uint flip) {
-    vec3 r = v;
-    if (axis == 0u) {
-        r.x = v.y;
-        r.y = v.z;
-        r.z = v.x;
-    } else if (axis == 1u) {
-        r.x = v.z;
-        r.y = v.x;
-        r.z = v.y;
-    }
-    if (flip != 0u) {
-        float x = r.x;
-        r.x = r.y;
-        r.y = x;
-    }
+// The components x y z of v in the cyclic order that makes `axis` the last one.
+AG_FN vec3 permuted(vec3 v, uint axis) {
+    vec3 r;
+    r.x = axis == 0u ? v.y : axis == 1u ? v.z : v.x;
+    r.y = axis == 0u ? v.z : axis == 1u ? v.x : v.y;
+    r.z = axis == 0u ? v.x : axis == 1u ? v.y : v.z;
     return r;
+}
+
+// Coordinates beyond this, m, are taken for damage: the test below would overflow on them.
+AG_CONST float kFarthestCorner = 1e12f;
+
+AG_FN bool is_usable_corner(vec3 p) {
+    return abs(p.x) <= kFarthestCorner && abs(p.y) <= kFarthestCorner &&
+           abs(p.z) <= kFarthestCorner;  // false for what is not a number
+}
+
+// Whether a ray can hit the triangle at all. Structures leave out those that none can.
+AG_FN bool is_usable_triangle(Triangle t) {
+    return is_usable_corner(t.a) && is_usable_corner(t.b) && is_usable_corner(t.c) && t.a != t.b &&
+           t.b != t.c && t.c != t.a;
 }
 
 AG_FN ShearedRay sheared_ray(vec3 origin, vec3 direction) {
@@ -51,9 +56,7 @@ AG_FN ShearedRay sheared_ray(vec3 origin, vec3 direction) {
     float z = abs(direction.z);
     ray.origin = origin;
     ray.axis = x > y ? (x > z ? 0u : 2u) : (y > z ? 1u : 2u);
-    float along = ray.axis == 0u ? direction.x : ray.axis == 1u ? direction.y : direction.z;
-    ray.flip = along < 0.0f ? 1u : 0u;
-    vec3 d = permuted(direction, ray.axis, ray.flip);
+    vec3 d = permuted(direction, ray.axis);
     ray.shear.x = d.x / d.z;
     ray.shear.y = d.y / d.z;
     ray.shear.z = 1.0f / d.z;
@@ -63,9 +66,9 @@ AG_FN ShearedRay sheared_ray(vec3 origin, vec3 direction) {
 // Both sides of a triangle are hit; one that the ray sees edge-on, or with a corner that is not
 // finite, is not.
 AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float near, float far) {
-    vec3 a = permuted(triangle.a - ray.origin, ray.axis, ray.flip);
-    vec3 b = permuted(triangle.b - ray.origin, ray.axis, ray.flip);
-    vec3 c = permuted(triangle.c - ray.origin, ray.axis, ray.flip);
+    vec3 a = permuted(triangle.a - ray.origin, ray.axis);
+    vec3 b = permuted(triangle.b - ray.origin, ray.axis);
+    vec3 c = permuted(triangle.c - ray.origin, ray.axis);
     AG_PRECISE float ax = a.x - ray.shear.x * a.z;
     AG_PRECISE float ay = a.y - ray.shear.y * a.z;
     AG_PRECISE float bx = b.x - ray.shear.x * b.z;
