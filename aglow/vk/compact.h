@@ -4,11 +4,17 @@
 #include "aglow/vk/scan.h"
 #include "aglow/vk/stream.h"
 
+#include <cstdint>
+#include <utility>
+
 namespace aglow::vk {
 
 /// Indices of the items whose flag is not 0, in order.
 /// Synchronisation  Reads flags[count] (uint), writes indices[how many are set] and their number at
-///                  `kept`. Starts and ends without barrier.
+///                  `kept`. Starts and ends without barrier; two record() of one object need a
+///                  barrier between them, as they share its scratch memory.
+/// Shapes  fewer than 2^31 flags.
+/// Cost    reads the flags twice.
 class Compact {
 public:
     static Result<Compact> create(const Gpu& gpu);
@@ -17,7 +23,16 @@ public:
                 uint64_t kept) const;
 
 private:
-    // ... to be filled in
+    Compact(Gpu gpu, Kernel count, Kernel write, Scan scan)
+        : gpu_(std::move(gpu)),
+          count_(std::move(count)),
+          write_(std::move(write)),
+          scan_(std::move(scan)) {}
+
+    Gpu gpu_;
+    Kernel count_, write_;
+    Scan scan_;
+    Buffer kept_;  // of each block, then before each block
 };
 
 }  // namespace aglow::vk

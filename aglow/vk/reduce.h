@@ -4,15 +4,23 @@
 #include "aglow/vk/kernel.h"
 #include "aglow/vk/stream.h"
 
-#include <vector>
+#include <cstdint>
+#include <utility>
 
 namespace aglow::vk {
 
 enum class Reduction : uint8_t { sum_uint, max_uint, min_float, max_float };
 
+/// Results of all blocks of `count` values, of all blocks of those, and so on down to one: the
+/// scratch memory of a reduction or a prefix sum, in values.
+uint64_t block_result_count(uint64_t count);
+
 /// One value from many: their sum (modulo 2^32) or extreme. 0 for no uint and -inf, +inf for the
-/// maximum and minimum of no floats.
-/// Synchronisation  Reads `values`, writes 4 bytes at `result`. Starts and ends without barrier.
+/// maximum and minimum of no floats; -0 counts as less than +0, floats must not be NaN.
+/// Shapes  fewer than 2^32 values.
+/// Synchronisation  Reads `values`, writes 4 bytes at `result`. Starts and ends without barrier;
+/// two
+///                  record() of one object need a barrier between them, as they share its scratch.
 /// Repeat  same bits every run and on every device.
 /// Cost    reads the values once.
 class Reduce {
@@ -24,7 +32,11 @@ public:
     void record(Stream& stream, uint64_t values, uint64_t count, uint64_t result) const;
 
 private:
-    // ... to be filled in
+    explicit Reduce(Gpu gpu, Kernel kernel) : gpu_(std::move(gpu)), kernel_(std::move(kernel)) {}
+
+    Gpu gpu_;
+    Kernel kernel_;
+    Buffer partial_;  // results of the blocks, then of blocks of those, ...
 };
 
 }  // namespace aglow::vk

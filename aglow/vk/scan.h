@@ -4,14 +4,21 @@
 #include "aglow/vk/kernel.h"
 #include "aglow/vk/stream.h"
 
-#include <vector>
+#include <cstdint>
+#include <utility>
+
+namespace aglow::shared {
+struct ScanArgs;
+}
 
 namespace aglow::vk {
 
 /// Exclusive prefix sums of uint, modulo 2^32: out[i] = in[0] + ... + in[i - 1]. Reduces blocks,
 /// scans the sums, then scans the blocks, so no group ever waits for another.
 /// Synchronisation  Reads `in`, writes `out` (which may be `in`) and, unless it is 0, the sum of
-///                  all at `total`. Starts and ends without barrier.
+///                  all at `total`. Starts and ends without barrier; two record() of one object
+///                  need a barrier between them, as they share its scratch memory.
+/// Shapes  fewer than 2^32 values.
 /// Cost    reads the values twice and writes them once.
 /// Source  Sengupta, Harris, Zhang & Owens, "Scan Primitives for GPU Computing", Graphics Hardware
 ///         2007; Merrill & Grimshaw, "Parallel Scan for Stream Architectures", 2009.
@@ -23,7 +30,13 @@ public:
                 uint64_t total = 0) const;
 
 private:
-    // ... to be filled in
+    Scan(Gpu gpu, Kernel sum, Kernel scan)
+        : gpu_(std::move(gpu)), sum_(std::move(sum)), scan_(std::move(scan)) {}
+    void record_level(Stream& stream, const shared::ScanArgs& args, uint64_t unasked) const;
+
+    Gpu gpu_;
+    Kernel sum_, scan_;
+    Buffer sums_;  // of the blocks, then of blocks of those, ...; last, a total nobody asked for
 };
 
 }  // namespace aglow::vk
