@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/vk/buffer.h"
 
+#include "aglow/vk/device.h"
+
 namespace aglow::vk {
 
-void Buffer::swap(Buffer& other) noexcept {
-    std::swap(pool_, other.pool_);
-    std::swap(allocation_, other.allocation_);
-    std::swap(buffer_, other.buffer_);
-    std::swap(size_, other.size_);
-    std::swap(address_, other.address_);
+Buffer::Owned::~Owned() {
+    buffer = {};  // before the memory that it is bound to
+    if (allocation.block) pool->free(allocation);
 }
 
 Buffer::~Buffer() {
-    buffer_ = {};  // before the memory that it is bound to
-    if (allocation_.block) pool_->free(allocation_);
+    if (owned_) device_->retire(std::move(owned_));
+}
+
+void Buffer::swap(Buffer& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(owned_, other.owned_);
+    std::swap(handle_, other.handle_);
+    std::swap(size_, other.size_);
+    std::swap(address_, other.address_);
+    std::swap(mapped_, other.mapped_);
 }
 
 }  // namespace aglow::vk

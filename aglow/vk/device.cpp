@@ -101,7 +101,6 @@ Status Device::open_device(const DeviceOptions& options) {
     AG_TRY(instance_, Instance::create(messages_));
     AG_TRY(physical_, choose(instance_->devices(), options.name));
     AG_TRY(device_, create_device(physical_));
-    vkGetDeviceQueue(device_, physical_.queue_family, 0, &queue_);
     if (!options.timestamps) physical_.timestamp_period = 0;
     if (messages_) {
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
@@ -109,10 +108,28 @@ Status Device::open_device(const DeviceOptions& options) {
     }
     pool_ = std::make_unique<MemoryPool>(physical_.handle, device_, physical_.max_allocation_bytes);
     faults_ = options.faults;
+    return make_queue();
+}
+
+Status Device::make_queue() {
+    vkGetDeviceQueue(device_, physical_.queue_family, 0, &queue_);
+    VkSemaphoreTypeCreateInfo timeline{};
+    timeline.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+    timeline.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    info.pNext = &timeline;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    VkResult result = vkCreateSemaphore(device_, &info, nullptr, &semaphore);
+    if (result != VK_SUCCESS) return failure(result, "opening the GPU");
+    finished_ = Semaphore(device_, semaphore);
     return {};
 }
 
 Device::~Device() {
+    // Streams wait for their work before they let go of the device, so nothing runs any more.
+    retired_.clear();
+    finished_ = {};
     pool_.reset();
     if (device_) vkDestroyDevice(device_, nullptr);
 }
@@ -125,6 +142,7 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
                                 "there is none; {} are in use",
                                 name, bytes, bytes_in_use()));
     }
+    reap();
     if (bytes > physical_.max_allocation_bytes) return pool_->too_large(bytes, name);
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -134,21 +152,27 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
     VkBuffer handle = VK_NULL_HANDLE;
     VkResult result = vkCreateBuffer(device_, &info, nullptr, &handle);
     if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
-    Buffer buffer;
-    buffer.pool_ = pool_.get();
-    buffer.buffer_ = BufferHandle(device_, handle);
+    auto owned = std::make_shared<Buffer::Owned>();
+    owned->pool = pool_.get();
+    owned->buffer = BufferHandle(device_, handle);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_, handle, &needs);
-    AG_TRY(buffer.allocation_, pool_->allocate(needs, memory, name));
-    result =
-        vkBindBufferMemory(device_, handle, buffer.allocation_.memory, buffer.allocation_.offset);
+    AG_TRY(owned->allocation, pool_->allocate(needs, memory, name));
+    const Allocation& place = owned->allocation;
+    result = vkBindBufferMemory(device_, handle, place.memory, place.offset);
     if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
+    set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
+
+    Buffer buffer;
+    buffer.device_ = this;
+    buffer.handle_ = handle;
+    buffer.size_ = bytes;
+    buffer.mapped_ = place.mapped;
     VkBufferDeviceAddressInfo whose{};
     whose.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
     whose.buffer = handle;
     buffer.address_ = vkGetBufferDeviceAddress(device_, &whose);
-    buffer.size_ = bytes;
-    set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
+    buffer.owned_ = std::move(owned);
     return buffer;
 }
 
@@ -168,12 +192,18 @@ tl::unexpected<Error> Device::lost(std::string_view what) {
     return failure(VK_ERROR_DEVICE_LOST, fmt::format("\"{}\" ran {}", info().name, what));
 }
 
-Status Device::submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value,
-                      std::string_view what) {
+Result<uint64_t> Device::submit(VkCommandBuffer commands, std::string_view what) {
+    std::lock_guard lock(queue_mutex_);
+    bool injected = faults_.lose_at_submit >= 0 && submit_count_ >= faults_.lose_at_submit;
+    ++submit_count_;
+    if (lost_ || injected) return lost(what);
+
+    uint64_t ticket = last_ticket_ + 1;
+    VkSemaphore done = finished_.get();
     VkTimelineSemaphoreSubmitInfo values{};
     values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
     values.signalSemaphoreValueCount = 1;
-    values.pSignalSemaphoreValues = &value;
+    values.pSignalSemaphoreValues = &ticket;
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.pNext = &values;
@@ -181,30 +211,52 @@ Status Device::submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value
     info.pCommandBuffers = &commands;
     info.signalSemaphoreCount = 1;
     info.pSignalSemaphores = &done;
-
-    std::lock_guard lock(queue_mutex_);
-    bool injected = faults_.lose_at_submit >= 0 && submit_count_ >= faults_.lose_at_submit;
-    ++submit_count_;
-    if (lost_ || injected) return lost(what);
     VkResult result = vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE);
     if (result == VK_ERROR_DEVICE_LOST) return lost(what);
     if (result != VK_SUCCESS) return failure(result, fmt::format("submitting {}", what));
-    return {};
+    last_ticket_ = ticket;
+    return ticket;
 }
 
-Status Device::wait(VkSemaphore done, uint64_t value, std::string_view what) {
+Status Device::wait(uint64_t ticket, std::string_view what) {
+    VkSemaphore semaphore = finished_.get();
     VkSemaphoreWaitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
     info.semaphoreCount = 1;
-    info.pSemaphores = &done;
-    info.pValues = &value;
+    info.pSemaphores = &semaphore;
+    info.pValues = &ticket;
     VkResult result = vkWaitSemaphores(device_, &info, UINT64_MAX);
     if (result == VK_ERROR_DEVICE_LOST) return lost(what);
     if (result != VK_SUCCESS) return failure(result, fmt::format("waiting for {}", what));
+    reap();
     return {};
 }
 
-uint64_t Device::bytes_in_use() const { return pool_->bytes_in_use(); }
+void Device::retire(std::shared_ptr<void> object) {
+    {
+        std::lock_guard lock(retired_mutex_);
+        retired_.push_back({last_ticket_, std::move(object)});
+    }
+    reap();
+}
+
+void Device::reap() const {
+    std::deque<Retired> unused;  // dies after the lock
+    std::lock_guard lock(retired_mutex_);
+    if (retired_.empty()) return;
+    uint64_t finished = 0;
+    if (vkGetSemaphoreCounterValue(device_, finished_.get(), &finished) != VK_SUCCESS) return;
+    while (!retired_.empty() && retired_.front().ticket <= finished) {
+        unused.push_back(std::move(retired_.front()));
+        retired_.pop_front();
+    }
+}
+
+uint64_t Device::bytes_in_use() const {
+    reap();
+    return pool_->bytes_in_use();
+}
+
 uint64_t Device::peak_bytes() const { return pool_->peak_bytes(); }
 int Device::allocation_count() const { return allocation_count_; }
 

@@ -7,6 +7,7 @@
 #include "aglow/vk/physical_device.h"
 
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -59,14 +60,15 @@ public:
     uint64_t bytes_in_use() const;
     uint64_t peak_bytes() const;
 
-    /// Hands work to the queue and signals `done` with `value`.
+    /// Hands work to the queue, behind all that was submitted before.
+    /// Result  a ticket for wait(). Tickets grow, and work finishes in their order.
     /// Errors  device_lost, out_of_memory; `what` names the pass.
-    Status submit(VkCommandBuffer commands, VkSemaphore done, uint64_t value,
-                  std::string_view what);
-
-    /// Waits until work that was submitted has signalled `value`.
+    Result<uint64_t> submit(VkCommandBuffer commands, std::string_view what);
+    /// Waits until the work of this ticket and all before it has finished.
     /// Errors  device_lost; `what` names the pass.
-    Status wait(VkSemaphore done, uint64_t value, std::string_view what);
+    Status wait(uint64_t ticket, std::string_view what);
+    /// Lets go of `object` as soon as all that is submitted so far has finished.
+    void retire(std::shared_ptr<void> object);
 
     /// Gives an object a name in the driver's tools and in messages().
     void set_name(VkObjectType type, uint64_t object, std::string_view name) const;
@@ -81,7 +83,9 @@ public:
 private:
     Device() = default;
     Status open_device(const DeviceOptions& options);
+    Status make_queue();
     tl::unexpected<Error> lost(std::string_view what);
+    void reap() const;
 
     std::shared_ptr<Messages> messages_;
     std::unique_ptr<Instance> instance_;
@@ -92,9 +96,19 @@ private:
     Faults faults_;
     std::atomic<int> allocation_count_ = 0;
     std::atomic<bool> lost_ = false;
+
     mutable std::mutex queue_mutex_;  // of queue_ and submit_count_
     VkQueue queue_ = VK_NULL_HANDLE;
     int submit_count_ = 0;
+    Semaphore finished_;                     // counts tickets
+    std::atomic<uint64_t> last_ticket_ = 0;  // handed out
+
+    struct Retired {
+        uint64_t ticket = 0;
+        std::shared_ptr<void> object;
+    };
+    mutable std::mutex retired_mutex_;
+    mutable std::deque<Retired> retired_;  // tickets grow
 };
 
 }  // namespace aglow::vk

@@ -98,8 +98,17 @@ Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelin
 }  // namespace
 
 Kernel::Kernel(Kernel&&) noexcept = default;
-Kernel& Kernel::operator=(Kernel&&) noexcept = default;
-Kernel::~Kernel() = default;
+Kernel& Kernel::operator=(Kernel&& other) noexcept {
+    Kernel taken(std::move(other));
+    std::swap(gpu_, taken.gpu_);
+    std::swap(name_, taken.name_);
+    std::swap(owned_, taken.owned_);
+    std::swap(rate_, taken.rate_);
+    return *this;
+}
+Kernel::~Kernel() {
+    if (owned_) gpu_->retire(std::move(owned_));
+}
 
 Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
                               std::span<const uint32_t> spirv,
@@ -121,10 +130,11 @@ Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
     kernel.gpu_ = gpu;
     kernel.name_ = name;
     AG_TRY(ShaderModule module, make_module(gpu->get(), spirv, doing));
-    AG_TRY(kernel.layout_, make_layout(gpu->get(), doing));
-    AG_TRY(kernel.pipeline_, make_pipeline(gpu->get(), module.get(), kernel.layout_.get(),
-                                           constants, full_subgroups, doing));
-    kernel.rate_ = std::make_unique<KernelRate>();
+    kernel.owned_ = std::make_shared<Owned>();
+    AG_TRY(kernel.owned_->layout, make_layout(gpu->get(), doing));
+    AG_TRY(kernel.owned_->pipeline, make_pipeline(gpu->get(), module.get(), kernel.layout(),
+                                                  constants, full_subgroups, doing));
+    kernel.rate_ = std::make_shared<KernelRate>();
     gpu->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kernel.pipeline()), name);
     return kernel;
 }

@@ -18,7 +18,8 @@ class KernelRate;  // what streams have measured of it
 /// bytes of scalar layout, whose first member is `uint first_group`: a stream may run the groups of
 /// one dispatch in several pieces and sets first_group for each. Shaders include
 /// aglow/vk/kernel.glsl and call group_index() instead of reading gl_WorkGroupID.
-/// Lifetime  must outlive every stream it ran in until that stream's finish().
+/// Lifetime  when it dies its pipeline goes as soon as all work that was submitted has finished; it
+///           must not die between a stream's run() and the submit.
 class Kernel {
 public:
     /// `constants[i]` is the value of constant_id i.
@@ -27,21 +28,24 @@ public:
                                  std::span<const uint32_t> spirv,
                                  std::span<const uint32_t> constants = {});
     Kernel(Kernel&&) noexcept;
-    Kernel& operator=(Kernel&&) noexcept;
+    Kernel& operator=(Kernel&& other) noexcept;
     ~Kernel();
 
     const std::string& name() const { return name_; }
-    VkPipeline pipeline() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-    KernelRate& rate() const { return *rate_; }
+    VkPipeline pipeline() const { return owned_->pipeline.get(); }
+    VkPipelineLayout layout() const { return owned_->layout.get(); }
+    const std::shared_ptr<KernelRate>& rate() const { return rate_; }
 
 private:
+    struct Owned {
+        PipelineLayout layout;
+        Pipeline pipeline;
+    };
     Kernel() = default;
     Gpu gpu_;
     std::string name_;
-    PipelineLayout layout_;
-    Pipeline pipeline_;
-    std::unique_ptr<KernelRate> rate_;
+    std::shared_ptr<Owned> owned_;
+    std::shared_ptr<KernelRate> rate_;
 };
 
 /// How many groups of `size` cover `count` items.

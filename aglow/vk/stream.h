@@ -4,6 +4,7 @@
 #include "aglow/vk/buffer.h"
 #include "aglow/vk/devices.h"
 #include "aglow/vk/kernel.h"
+#include "aglow/vk/timing_table.h"
 
 #include <cstring>
 #include <memory>
@@ -14,14 +15,6 @@
 #include <vector>
 
 namespace aglow::vk {
-
-/// GPU time of one kernel under one label.
-struct Timing {
-    std::string label;   ///< of the scope that was open, "" outside of one
-    std::string kernel;  ///< "copy" and "fill" for those
-    double seconds = 0;
-    uint64_t dispatches = 0;
-};
 
 /// Work for the device in the order it is given. Members that record cannot fail: the first failure
 /// (device lost, no staging memory) is kept and returned by finish(), and what follows it is
