@@ -7,8 +7,8 @@
 
 // Tests the triangles of one cell. Returns whether the ray needs to go no further. t of `hit`
 // counts from where the ray starts, `offset` before that.
-bool test_references(TrianglePtr triangles, uintPtr references, uint first, ShearedRay ray, float near,
-                     float offset, uint first_triangle, bool any, inout RayHit hit) {
+bool test_references(TrianglePtr triangles, uintPtr references, uint first, ShearedRay ray,
+                     float near, float offset, uint first_triangle, bool any, inout RayHit hit) {
     for (uint i = first;; ++i) {
         uint reference = references.at[i];
         uint triangle = reference & ~kLastReference;
@@ -27,30 +27,19 @@ bool test_references(TrianglePtr triangles, uintPtr references, uint first, Shea
 
 void trace_grid(uvec2 address, uint first_triangle, RayQuery query, bool any, inout RayHit hit) {
     GridHeader grid = GridHeaderPtr(address).at[0];
+    GridEntry entry = enter_grid(grid.shape, query, hit.t);
+    if (!entry.inside) return;
+    CellRay ray = entry.ray;
+    RayHit best = RayHit(hit.t - entry.offset, kNoTriangle, vec2(0.0f));
+    ShearedRay sheared = sheared_ray(entry.origin, query.direction);
     uvec3 resolution = grid.shape.resolution;
-    vec3 cells = vec3(resolution);
-    vec3 direction = query.direction * grid.shape.cells_per_length;
-    CellRay ray =
-        cell_ray((query.origin - grid.shape.lower) * grid.shape.cells_per_length, direction);
-    vec2 span = grid_span(ray, cells, query.near, hit.t);
-    if (!(span.x <= span.y) || resolution.x == 0u) return;
-    float offset = far_start(ray, cells, span.x);
-    if (offset > 0.0f) {
-        query.origin += query.direction * offset;
-        query.near -= offset;
-        ray = cell_ray((query.origin - grid.shape.lower) * grid.shape.cells_per_length, direction);
-        span.x = 0.0f;
-    }
-
-    RayHit best = RayHit(hit.t - offset, kNoTriangle, vec2(0.0f));
-    ShearedRay sheared = sheared_ray(query.origin, query.direction);
-    ivec3 cell = cell_at(ray, span.x, ivec3(0), ivec3(resolution) - 1);
+    ivec3 cell = cell_at(ray, entry.t, ivec3(0), ivec3(resolution) - 1);
     do {
         AG_COUNT_STEPS;
         uint word = grid.cells.at[cell_index(cell, resolution)];
         bool empty = (word & kEmptyCell) != 0u;
-        if (!empty && test_references(grid.triangles, grid.references, word, sheared, query.near,
-                                      offset, first_triangle, any, best)) {
+        if (!empty && test_references(grid.triangles, grid.references, word, sheared, entry.near,
+                                      entry.offset, first_triangle, any, best)) {
             break;
         }
         int skip = empty ? int(word & ~kEmptyCell) : 1;
@@ -61,6 +50,6 @@ void trace_grid(uvec2 address, uint first_triangle, RayQuery query, bool any, in
     } while (is_inside(cell, resolution));
     if (best.triangle == kNoTriangle) return;
     hit = best;
-    hit.t += offset;
+    hit.t += entry.offset;
 }
 #endif

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
+
 #include "aglow/shared/grid_build.h"
 
 layout(local_size_x = kGridGroupSize) in;

@@ -3,7 +3,8 @@
 //
 // Source: Amanatides & Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
 // Where a ray crosses a plane between cells is computed from the plane's number and not by adding
-// up steps, so that errors do not grow along the way; a block of empty cells is crossed in one step.
+// up steps, so that errors do not grow along the way; a block of empty cells is crossed in one
+// step.
 #ifndef AGLOW_ACCEL_GPU_GRID_WALK_GLSL
 #define AGLOW_ACCEL_GPU_GRID_WALK_GLSL
 #include "aglow/shared/grid.h"
@@ -31,7 +32,8 @@ CellRay cell_ray(vec3 origin, vec3 direction) {
     return ray;
 }
 
-// Where the ray is between the first and the last planes of all axes: t from x to y. x > y: nowhere.
+// Where the ray is between the first and the last planes of all axes: t from x to y. x > y:
+// nowhere.
 vec2 grid_span(CellRay ray, vec3 cells, float near, float far) {
     bvec3 still = equal(ray.inverse, vec3(0.0f));
     if (any(lessThan(mix(vec3(0.0f), ray.origin, still), vec3(0.0f))) ||
@@ -42,7 +44,8 @@ vec2 grid_span(CellRay ray, vec3 cells, float near, float far) {
     vec3 b = cells * ray.inverse + ray.bias;
     vec3 low = min(a, b);
     vec3 high = max(a, b);
-    return vec2(max(max(low.x, low.y), max(low.z, near)), min(min(high.x, high.y), min(high.z, far)));
+    return vec2(max(max(low.x, low.y), max(low.z, near)),
+                min(min(high.x, high.y), min(high.z, far)));
 }
 
 // The cell that the ray is in at t.
@@ -57,8 +60,8 @@ vec3 block_exits(CellRay ray, ivec3 cell, int skip) {
 }
 
 // The first cell behind that block, entered at t = `exit`, the smallest of `exits`. A coordinate
-// that does not leave the block stays within it, on the ray's side of `cell`, whatever the rounding:
-// so the walk ends.
+// that does not leave the block stays within it, on the ray's side of `cell`, whatever the
+// rounding: so the walk ends.
 ivec3 cell_behind(CellRay ray, ivec3 cell, int skip, vec3 exits, float exit) {
     bvec3 backward = lessThan(ray.inverse, vec3(0.0f));
     ivec3 within = ivec3(skip - 1);
@@ -68,16 +71,47 @@ ivec3 cell_behind(CellRay ray, ivec3 cell, int skip, vec3 exits, float exit) {
     return mix(inside, outside, equal(exits, vec3(exit)));
 }
 
+// The cell that the ray enters at t = `exit`, the smallest of `exits`.
+ivec3 next_cell(CellRay ray, ivec3 cell, vec3 exits, float exit) {
+    ivec3 step = mix(ivec3(1), ivec3(-1), lessThan(ray.inverse, vec3(0.0f)));
+    return cell + mix(ivec3(0), step, equal(exits, vec3(exit)));
+}
+
 bool is_inside(ivec3 cell, uvec3 resolution) { return all(lessThan(uvec3(cell), resolution)); }
 
 uint cell_index(ivec3 cell, uvec3 resolution) {
     return uint(cell.x) + resolution.x * (uint(cell.y) + resolution.y * uint(cell.z));
 }
 
-// A ray that starts far off a grid loses its place between cells to rounding, so it is made to
-// start where it enters: by how much t is reduced. See grid_margin().
-float far_start(CellRay ray, vec3 cells, float enter) {
-    vec3 away = max(ray.origin - cells, -ray.origin);
-    return enter > 0.0f && largest(away) > 4.0f * largest(cells) ? enter : 0.0f;
+// Where a ray's walk begins.
+struct GridEntry {
+    bool inside;  // false: the ray meets no cell
+    CellRay ray;
+    vec3 origin;   // of the ray in space: a ray that starts far off the grid would lose its place
+    float offset;  // to rounding, so it is made to start where it enters, t less by `offset`
+    float near;    // by that new t
+    float t;       // where the walk begins
+};
+
+GridEntry enter_grid(GridShape shape, RayQuery query, float far) {
+    GridEntry entry;
+    vec3 cells = vec3(shape.resolution);
+    vec3 direction = query.direction * shape.cells_per_length;
+    entry.origin = query.origin;
+    entry.offset = 0.0f;
+    entry.near = query.near;
+    entry.ray = cell_ray((entry.origin - shape.lower) * shape.cells_per_length, direction);
+    vec2 span = grid_span(entry.ray, cells, query.near, far);
+    entry.t = span.x;
+    entry.inside = span.x <= span.y && shape.resolution.x != 0u;
+    vec3 away = max(entry.ray.origin - cells, -entry.ray.origin);
+    if (entry.t > 0.0f && largest(away) > 4.0f * largest(cells)) {  // see grid_margin()
+        entry.offset = entry.t;
+        entry.origin += query.direction * entry.offset;
+        entry.near -= entry.offset;
+        entry.ray = cell_ray((entry.origin - shape.lower) * shape.cells_per_length, direction);
+        entry.t = 0.0f;
+    }
+    return entry;
 }
 #endif
