@@ -152,6 +152,8 @@ void Stream::upload_bytes(std::span<const std::byte> data, const Buffer& to, uin
     }
 }
 
+void Stream::submit() { state_->recorder->submit(); }
+
 Status Stream::finish() {
     state_->recorder->finish();
     if (state_->recorder->failure()) return tl::unexpected(*state_->recorder->failure());

@@ -51,6 +51,8 @@ public:
         upload_bytes(std::as_bytes(data), to, to_offset);
     }
 
+    /// Hands what is recorded to the device, so that it begins; does not wait.
+    void submit();
     /// Submits all and waits for it.
     /// Errors  device_lost, out_of_memory; names the kernel. A stream stays failed.
     Status finish();

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/vk/device.h"
+
+#include "aglow/vk/testing/test_device.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+using namespace aglow;
+using namespace aglow::vk;
+
+namespace {
+
+/// An environment variable for the life of this.
+class Environment {
+public:
+    Environment(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) old_ = old;
+        setenv(name, value, 1);
+    }
+    ~Environment() {
+        if (old_)
+            setenv(name_, old_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+
+private:
+    const char* name_;
+    std::optional<std::string> old_;
+};
+
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("devices are listed best first, with what they are") {
+    std::vector<GpuInfo> gpus = list_gpus();
+    for (const GpuInfo& gpu : gpus) {
+        CHECK_FALSE(gpu.name.empty());
+        CHECK_FALSE(gpu.driver.empty());
+        CHECK(gpu.api.substr(0, 2) == "1.");
+        CHECK(gpu.memory_bytes > 0);
+    }
+    CHECK(std::is_sorted(gpus.begin(), gpus.end(), [](const GpuInfo& a, const GpuInfo& b) {
+        return std::pair(!a.missing.empty(), a.kind) < std::pair(!b.missing.empty(), b.kind);
+    }));
+}
+
+TEST_CASE("a device opens by part of its name in any case") {
+    std::vector<GpuInfo> gpus = list_gpus();
+    if (gpus.empty()) return;
+    std::string part = gpus[0].name.substr(1);
+    std::transform(part.begin(), part.end(), part.begin(),
+                   [](char c) { return static_cast<char>(std::toupper(c)); });
+    auto gpu = open_gpu(part);
+    REQUIRE_MESSAGE(gpu, gpu.error().message);
+    CHECK(info(**gpu).name == gpus[0].name);
+
+    auto best = open_gpu();
+    REQUIRE_MESSAGE(best, best.error().message);
+    CHECK(info(**best).name == gpus[0].name);
+
+    auto none = open_gpu("no such GPU");
+    REQUIRE_FALSE(none);
+    CHECK(none.error().code == Errc::unsupported);
+    CHECK_MESSAGE(contains(none.error().message, gpus[0].name), none.error().message);
+}
+
+TEST_CASE("without a driver there is no device and a clear error") {
+    Environment icds("VK_ICD_FILENAMES", "/nonexistent.json");
+    Environment drivers("VK_DRIVER_FILES", "/nonexistent.json");
+    CHECK(list_gpus().empty());
+    auto gpu = open_gpu();
+    REQUIRE_FALSE(gpu);
+    CHECK(gpu.error().code == Errc::unsupported);
+    CHECK_MESSAGE(contains(gpu.error().message, "driver"), gpu.error().message);
+}
+
+TEST_CASE("validation that is asked for and not installed is an error") {
+    Environment layers("VK_LAYER_PATH", "/nonexistent");
+    DeviceOptions options;
+    options.validate = true;
+    auto gpu = Device::open(options);
+    REQUIRE_FALSE(gpu);
+    CHECK(gpu.error().code == Errc::unsupported);
+    CHECK_MESSAGE(contains(gpu.error().message, "validation layer"), gpu.error().message);
+}
+
+TEST_CASE("validation hears of what leaks when the device dies") {
+    DeviceOptions options;
+    options.validate = true;
+    options.messages = std::make_shared<Messages>();
+    {
+        auto gpu = Device::open(options);
+        if (!gpu) return;  // "a device opens" says why
+        VkSemaphoreCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+        VkSemaphore leaked = VK_NULL_HANDLE;
+        REQUIRE(vkCreateSemaphore((*gpu)->get(), &info, nullptr, &leaked) == VK_SUCCESS);
+        CHECK((*gpu)->messages().empty());
+    }
+    REQUIRE(options.messages->list().size() == 1);
+    CHECK_MESSAGE(contains(options.messages->list()[0], "has not been destroyed"),
+                  options.messages->list()[0]);
+}
+
+TEST_CASE("validation hears of work that lacks a barrier") {
+    DeviceOptions options;
+    options.validate = true;
+    auto gpu = Device::open(options);
+    if (!gpu) return;
+    auto stream = Stream::create(*gpu);
+    REQUIRE(stream);
+    auto a = stream->make_buffer(64, "a"), b = stream->make_buffer(64, "b");
+    REQUIRE((a && b));
+    stream->fill(*a, 1, 0, 64);
+    stream->copy(*a, 0, *b, 0, 64);
+    CHECK(stream->finish());
+    std::vector<std::string> messages = (*gpu)->messages();
+    REQUIRE(messages.size() == 1);
+    CHECK_MESSAGE(contains(messages[0], "SYNC-HAZARD-READ-AFTER-WRITE"), messages[0]);
+    CHECK_MESSAGE(contains(messages[0], "[a]"), messages[0]);
+}
+
+TEST_CASE("buffers have their size, an aligned address and a count of bytes") {
+    TestDevice device;
+    if (!device) return;
+    std::vector<Buffer> buffers;
+    for (uint64_t bytes : {0ull, 1ull, 4ull, 257ull, 100000ull, 20ull << 20, 40ull << 20}) {
+        for (Memory memory : {Memory::device, Memory::upload, Memory::readback}) {
+            auto buffer = device->make_buffer(bytes, "b", memory);
+            REQUIRE_MESSAGE(buffer, buffer.error().message);
+            CHECK(buffer->size() == std::max<uint64_t>(bytes, 4));
+            CHECK(buffer->address() % 256 == 0);
+            CHECK((buffer->mapped() == nullptr) == (memory == Memory::device));
+            buffers.push_back(std::move(*buffer));
+        }
+    }
+    CHECK(device->bytes_in_use() >= 3ull * (60 << 20));
+    uint64_t peak = device->peak_bytes();
+    CHECK(peak == device->bytes_in_use());
+    buffers.clear();
+    CHECK(device->bytes_in_use() == 0);
+    CHECK(device->peak_bytes() == peak);
+}
+
+TEST_CASE("a buffer that no memory can hold is an error that says so") {
+    TestDevice device;
+    if (!device) return;
+    for (int bits : {33, 45, 62}) {
+        auto buffer = device->make_buffer(uint64_t{1} << bits, "radiosity of everything");
+        REQUIRE_FALSE(buffer);
+        CHECK(buffer.error().code == Errc::out_of_memory);
+        CHECK(contains(buffer.error().message, "radiosity of everything"));
+        CHECK(contains(buffer.error().message, std::to_string(uint64_t{1} << bits)));
+    }
+}
+
+TEST_CASE("a buffer that dies while the device works on it dies after that") {
+    TestDevice device;
+    if (!device) return;
+    Stream stream = device.stream();
+    auto kept = stream.make_buffer(32 << 20, "kept");
+    REQUIRE(kept);
+    {
+        auto brief = stream.make_buffer(32 << 20, "brief");
+        REQUIRE(brief);
+        stream.fill(*brief, 5, 0, 32 << 20);
+        stream.barrier();
+        stream.copy(*brief, 0, *kept, 0, 32 << 20);
+        stream.submit();
+    }
+    auto last = stream.download<uint32_t>(*kept, 1, (8 << 20) - 1);
+    REQUIRE(last);
+    CHECK(last->front() == 5);
+}
