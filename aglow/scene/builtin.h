@@ -10,14 +10,15 @@
 namespace aglow {
 
 struct BuiltinScene {
-    std::string name;         ///< as on the command line; "stress:N" stands for its family
+    std::string name;         ///< as on the command line; "stress:N" and "cad:N" are families
     std::string description;  ///< one line
 };
 
 /// The scenes made by code, in the order of `aglow scene --list`.
 std::vector<BuiltinScene> builtin_scenes();
 
-/// Makes one: cornell-box, furnace, cube-tc58, corridor, living-room, stress:N.
+/// Makes one: cornell-box, furnace, cube-tc58, corridor, living-room; moving in a loop of a few
+/// seconds: walker, marbles, toys, forest, scatter; of a size: stress:N, cad:N.
 /// Errors  bad_argument (no such scene; names those there are; or N not in 12..20 000 000).
 /// Repeat  same scene, bit for bit, every time.
 Result<Scene> builtin_scene(std::string_view name);

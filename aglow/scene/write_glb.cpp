@@ -18,8 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Numbers of the glTF 2.0 specification.
-constexpr int kUnsignedInt = 5125, kFloat = 5126;
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kVertices = 34962, kIndices = 34963;  // buffer view targets
+constexpr int kOther = 0;                           // a view without a target
+constexpr uint32_t kMaxJoint = 0xffff;              // largest joint a vertex can name
 constexpr int kNearest = 9728, kLinear = 9729, kLinearMipmapLinear = 9987;
 constexpr uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 constexpr float kOrthographicDepth = 1000;  // m; glTF asks for a far plane, the scene has none
@@ -49,6 +51,8 @@ public:
         json_["asset"] = {{"version", "2.0"}, {"generator", "Aglow"}};
         add_nodes();
         AG_CHECK(add_meshes());
+        AG_CHECK(add_skins());
+        add_animations();
         for (const Material& material : scene_.materials)
             json_["materials"].push_back(json_of(material));
         AG_CHECK(add_textures());
@@ -91,6 +95,8 @@ private:
             if (node.scale != rest.scale) out["scale"] = to_json(node.scale);
         }
         if (node.mesh >= 0) out["mesh"] = node.mesh;
+        if (node.skin >= 0) out["skin"] = node.skin;
+        if (!node.weights.empty()) out["weights"] = node.weights;
         if (node.camera >= 0) out["camera"] = node.camera;
         if (node.light >= 0) add_light(node, out);
         return out;
@@ -109,25 +115,34 @@ private:
                     return fail(
                         Errc::bad_argument,
                         fmt::format("mesh {} \"{}\": a primitive has no triangles", i, mesh.name));
-                if (!primitive.targets.empty())
-                    return fail(Errc::unsupported,
-                                fmt::format("mesh {} \"{}\": morph targets cannot be written", i,
-                                            mesh.name));
+                if (primitive.targets.size() != mesh.primitives[0].targets.size())
+                    return fail(
+                        Errc::bad_argument,
+                        fmt::format("mesh {} \"{}\": its primitives differ in their number of "
+                                    "morph targets",
+                                    i, mesh.name));
+                AG_CHECK(check_joints(primitive, i, mesh.name));
                 out["primitives"].push_back(json_of(primitive));
             }
+            if (!mesh.weights.empty()) out["weights"] = mesh.weights;
             json_["meshes"].push_back(std::move(out));
         }
         return {};
     }
 
+    static Status check_joints(const Primitive& primitive, size_t mesh, const std::string& name) {
+        for (const uint32_t joint : primitive.joints)
+            if (joint > kMaxJoint)
+                return fail(Errc::bad_argument,
+                            fmt::format("mesh {} \"{}\": joint {} is beyond {}, the last a GLB can "
+                                        "name",
+                                        mesh, name, joint, kMaxJoint));
+        return {};
+    }
+
     Json json_of(const Primitive& primitive) {
         Json attributes = Json::object();
-        const size_t positions = add_accessor<vec3>(primitive.positions, "VEC3", kFloat, kVertices);
-        attributes["POSITION"] = positions;
-        Box bounds;
-        for (const vec3 p : primitive.positions) bounds.add(p);
-        json_["accessors"][positions]["min"] = to_json(bounds.lo);
-        json_["accessors"][positions]["max"] = to_json(bounds.hi);
+        attributes["POSITION"] = add_positions(primitive.positions);
         if (!primitive.normals.empty())
             attributes["NORMAL"] = add_accessor<vec3>(primitive.normals, "VEC3", kFloat, kVertices);
         for (size_t set = 0; set < primitive.texcoords.size(); ++set)
@@ -135,6 +150,7 @@ private:
                 add_accessor<vec2>(primitive.texcoords[set], "VEC2", kFloat, kVertices);
         if (!primitive.colors.empty())
             attributes["COLOR_0"] = add_accessor<vec4>(primitive.colors, "VEC4", kFloat, kVertices);
+        add_influences(primitive, attributes);
 
         Json out = {{"attributes", std::move(attributes)}};
         std::vector<uint32_t> indices;
@@ -142,7 +158,103 @@ private:
         for (const uvec3 t : primitive.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
         out["indices"] = add_accessor<uint32_t>(indices, "SCALAR", kUnsignedInt, kIndices);
         if (primitive.material >= 0) out["material"] = primitive.material;
+        for (const MorphTarget& target : primitive.targets)
+            out["targets"].push_back(json_of(target, primitive.positions.size()));
         return out;
+    }
+
+    size_t add_positions(const std::vector<vec3>& positions) {
+        const size_t accessor = add_accessor<vec3>(positions, "VEC3", kFloat, kVertices);
+        Box bounds;
+        for (const vec3 p : positions) bounds.add(p);
+        json_["accessors"][accessor]["min"] = to_json(bounds.lo);
+        json_["accessors"][accessor]["max"] = to_json(bounds.hi);
+        return accessor;
+    }
+
+    /// JOINTS_n and WEIGHTS_n: four influences a set.
+    void add_influences(const Primitive& primitive, Json& attributes) {
+        const auto influences = static_cast<size_t>(primitive.influences);
+        for (size_t set = 0; 4 * set < influences && !primitive.joints.empty(); ++set) {
+            std::vector<uint16_t> joints;
+            std::vector<float> weights;
+            for (size_t v = 0; v < primitive.positions.size(); ++v)
+                for (size_t i = 4 * set; i < 4 * set + 4; ++i) {
+                    const size_t at = v * influences + i;
+                    joints.push_back(static_cast<uint16_t>(primitive.joints[at]));
+                    weights.push_back(primitive.weights[at]);
+                }
+            attributes[fmt::format("JOINTS_{}", set)] =
+                add_accessor<uint16_t>(joints, "VEC4", kUnsignedShort, kVertices, 4);
+            attributes[fmt::format("WEIGHTS_{}", set)] =
+                add_accessor<float>(weights, "VEC4", kFloat, kVertices, 4);
+        }
+    }
+
+    Json json_of(const MorphTarget& target, size_t vertex_count) {
+        Json out = Json::object();
+        if (!target.normals.empty())
+            out["NORMAL"] = add_accessor<vec3>(target.normals, "VEC3", kFloat, kVertices);
+        if (!target.positions.empty())
+            out["POSITION"] = add_positions(target.positions);
+        else if (target.normals.empty())  // a target says something: that nothing moves
+            out["POSITION"] = add_positions(std::vector<vec3>(vertex_count, vec3{0, 0, 0}));
+        return out;
+    }
+
+    Status add_skins() {
+        for (size_t i = 0; i < scene_.skins.size(); ++i) {
+            const Skin& skin = scene_.skins[i];
+            if (skin.joints.empty())
+                return fail(Errc::bad_argument, fmt::format("skin {} has no joints", i));
+            Json out = {{"joints", skin.joints}};
+            if (!skin.inverse_bind.empty())
+                out["inverseBindMatrices"] =
+                    add_accessor<mat4>(skin.inverse_bind, "MAT4", kFloat, kOther);
+            json_["skins"].push_back(std::move(out));
+        }
+        return {};
+    }
+
+    /// An animation without channels moves nothing and glTF has none: it is left out.
+    void add_animations() {
+        for (const Animation& animation : scene_.animations) {
+            if (animation.channels.empty()) continue;
+            Json out = Json::object();
+            put_name(out, animation.name);
+            size_t input = 0;
+            for (size_t i = 0; i < animation.channels.size(); ++i) {
+                const AnimationChannel& channel = animation.channels[i];
+                if (i == 0 || channel.times != animation.channels[i - 1].times)
+                    input = add_times(channel.times);
+                add_channel(channel, input, out);
+            }
+            json_["animations"].push_back(std::move(out));
+        }
+    }
+
+    size_t add_times(const std::vector<float>& times) {
+        const size_t accessor = add_accessor<float>(times, "SCALAR", kFloat, kOther);
+        json_["accessors"][accessor]["min"] = Json::array({times.front()});
+        json_["accessors"][accessor]["max"] = Json::array({times.back()});
+        return accessor;
+    }
+
+    void add_channel(const AnimationChannel& channel, size_t input, Json& animation) {
+        constexpr const char* kModes[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+        constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+        const bool scalar = channel.path == Path::weights;
+        const size_t width = scalar ? 1 : channel.path == Path::rotation ? 4 : 3;
+        const char* type = scalar ? "SCALAR" : width == 4 ? "VEC4" : "VEC3";
+        const size_t output = add_accessor<float>(channel.values, type, kFloat, kOther, width);
+        animation["samplers"].push_back(
+            {{"input", input},
+             {"output", output},
+             {"interpolation", kModes[static_cast<size_t>(channel.interpolation)]}});
+        animation["channels"].push_back(
+            {{"sampler", animation["samplers"].size() - 1},
+             {"target",
+              {{"node", channel.node}, {"path", kPaths[static_cast<size_t>(channel.path)]}}}});
     }
 
     Json json_of(const Material& material) {
@@ -277,13 +389,15 @@ private:
         return owner["extensions"][extension];
     }
 
+    /// `width` items make one element.
     template <class T>
-    size_t add_accessor(const std::vector<T>& items, const char* type, int component, int target) {
+    size_t add_accessor(const std::vector<T>& items, const char* type, int component, int target,
+                        size_t width = 1) {
         const size_t view = add_view(items.data(), items.size() * sizeof(T));
-        json_["bufferViews"][view]["target"] = target;
+        if (target != kOther) json_["bufferViews"][view]["target"] = target;
         json_["accessors"].push_back({{"bufferView", view},
                                       {"componentType", component},
-                                      {"count", items.size()},
+                                      {"count", items.size() / width},
                                       {"type", type}});
         return json_["accessors"].size() - 1;
     }
@@ -328,13 +442,9 @@ private:
 };
 
 Status check_writable(const Scene& scene) {
-    const auto cannot = [](const char* what) {
-        return fail(Errc::unsupported, fmt::format("{} cannot be written as a new GLB", what));
-    };
-    if (!scene.skins.empty()) return cannot("skins");
-    if (!scene.animations.empty()) return cannot("animations");
     for (const Node& node : scene.nodes)
-        if (!node.instances.empty()) return cannot("instances");
+        if (!node.instances.empty())
+            return fail(Errc::unsupported, "instances cannot be written as a new GLB");
     return {};
 }
 

@@ -130,6 +130,26 @@ void check_same(const Primitive& a, const Primitive& b) {
     CHECK(turned < 1e-6f);
     CHECK(a.texcoords == b.texcoords);
     CHECK(a.colors == b.colors);
+    CHECK(a.influences == b.influences);
+    CHECK(a.joints == b.joints);
+    CHECK(a.weights == b.weights);
+    REQUIRE(a.targets.size() == b.targets.size());
+    for (size_t i = 0; i < a.targets.size(); ++i) {
+        CHECK(a.targets[i].positions == b.targets[i].positions);
+        CHECK(a.targets[i].normals == b.targets[i].normals);
+    }
+}
+
+void check_same(const Animation& a, const Animation& b) {
+    CHECK(a.name == b.name);
+    REQUIRE(a.channels.size() == b.channels.size());
+    for (size_t i = 0; i < a.channels.size(); ++i) {
+        CHECK(a.channels[i].node == b.channels[i].node);
+        CHECK(a.channels[i].path == b.channels[i].path);
+        CHECK(a.channels[i].interpolation == b.channels[i].interpolation);
+        CHECK(a.channels[i].times == b.channels[i].times);
+        CHECK(a.channels[i].values == b.channels[i].values);
+    }
 }
 
 void check_same(const Node& a, const Node& b) {
@@ -142,6 +162,8 @@ void check_same(const Node& a, const Node& b) {
     CHECK(a.rotation == b.rotation);
     CHECK(a.scale == b.scale);
     CHECK(a.mesh == b.mesh);
+    CHECK(a.skin == b.skin);
+    CHECK(a.weights == b.weights);
     CHECK(a.camera == b.camera);
     CHECK(a.light == b.light);
     CHECK(a.in_scene == b.in_scene);
@@ -194,7 +216,8 @@ TEST_CASE("textures, cameras and lights come back from a GLB as they were") {
 }
 
 TEST_CASE("built-in scenes come back from a GLB triangle by triangle, without warnings") {
-    for (const char* name : {"cornell-box", "corridor", "cube-tc58", "living-room"}) {
+    for (const char* name : {"cornell-box", "corridor", "cube-tc58", "living-room", "walker",
+                             "marbles", "toys", "forest", "scatter", "cad:5000"}) {
         CAPTURE(name);
         const Scene scene = *builtin_scene(name), back = reloaded(scene);
         CHECK(back.warnings.empty());
@@ -208,7 +231,51 @@ TEST_CASE("built-in scenes come back from a GLB triangle by triangle, without wa
         REQUIRE(back.materials.size() == scene.materials.size());
         for (size_t i = 0; i < scene.materials.size(); ++i)
             check_same(back.materials[i], scene.materials[i]);
+        REQUIRE(back.animations.size() == scene.animations.size());
+        for (size_t i = 0; i < scene.animations.size(); ++i)
+            check_same(back.animations[i], scene.animations[i]);
     }
+}
+
+TEST_CASE("skins, morph targets and animations come back from a GLB as they were") {
+    Scene scene = varied_scene();
+    Primitive& rigged = scene.meshes[0].primitives[0];
+    rigged.influences = 8;
+    for (uint32_t i = 0; i < 24; ++i) {
+        rigged.joints.push_back(i % 2);
+        rigged.weights.push_back(0.125f);
+    }
+    for (Primitive& primitive : scene.meshes[0].primitives) {
+        primitive.targets.resize(2);
+        primitive.targets[0].positions = {{1, 2, 3}, {-4, 5, 6}, {7, 8, -9}};
+        primitive.targets[1].normals = {{0.5f, 0, 0}, {0, 0.5f, 0}, {0, 0, 0.5f}};
+    }
+    scene.meshes[0].weights = {0.25f, 0.5f};
+    scene.nodes[1].weights = {1, 0};
+    scene.nodes[1].skin = 0;
+    scene.skins.push_back({{3, 4}, {translation({1, 2, 3}), translation({4, 5, 6})}});
+    Animation animation{"dance", {}};
+    animation.channels.push_back(
+        {3, Path::translation, Interpolation::step, {0, 1}, {0, 0, 0, 1, 2, 3}});
+    animation.channels.push_back(
+        {4, Path::rotation, Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 1, 0, 0}});
+    animation.channels.push_back(
+        {3, Path::scale, Interpolation::cubic_spline, {0.5f}, {0, 0, 0, 1, 1, 1, 0, 0, 0}});
+    animation.channels.push_back(
+        {1, Path::weights, Interpolation::linear, {0, 2, 3}, {0, 1, 1, 0, 0.5f, 0.5f}});
+    scene.animations.push_back(animation);
+
+    const Scene back = reloaded(scene);
+    CHECK(back.warnings.empty());
+    for (size_t i = 0; i < 2; ++i)
+        check_same(back.meshes[0].primitives[i], scene.meshes[0].primitives[i]);
+    CHECK(back.meshes[0].weights == scene.meshes[0].weights);
+    for (size_t i = 0; i < scene.nodes.size(); ++i) check_same(back.nodes[i], scene.nodes[i]);
+    REQUIRE(back.skins.size() == 1);
+    CHECK(back.skins[0].joints == scene.skins[0].joints);
+    CHECK(back.skins[0].inverse_bind == scene.skins[0].inverse_bind);
+    REQUIRE(back.animations.size() == 1);
+    check_same(back.animations[0], animation);
 }
 
 TEST_CASE("chunks of a GLB are whole words and their lengths add up") {
@@ -276,15 +343,20 @@ TEST_CASE("what cannot be written is said and named") {
     CHECK(written.error().code == Errc::bad_argument);
     CHECK(written.error().message == "mesh 0 \"mesh\": a primitive has no triangles");
 
-    Scene skinned = varied_scene();
-    skinned.skins.resize(1);
-    CHECK(to_glb(skinned).error().code == Errc::unsupported);
+    Scene jointless = varied_scene();
+    jointless.skins.resize(1);
+    CHECK(to_glb(jointless).error().message == "skin 0 has no joints");
     Scene instanced = varied_scene();
     instanced.nodes[1].instances.resize(2);
     CHECK(to_glb(instanced).error().code == Errc::unsupported);
-    Scene morphed = varied_scene();
-    morphed.meshes[0].primitives[0].targets.resize(1);
-    CHECK(to_glb(morphed).error().code == Errc::unsupported);
+    Scene uneven = varied_scene();
+    uneven.meshes[0].primitives[0].targets.resize(1);
+    CHECK(to_glb(uneven).error().code == Errc::bad_argument);
+    Scene crowded = varied_scene();
+    crowded.meshes[0].primitives[0].influences = 4;
+    crowded.meshes[0].primitives[0].joints.assign(12, 65'536);
+    crowded.meshes[0].primitives[0].weights.assign(12, 0.25f);
+    CHECK(to_glb(crowded).error().code == Errc::bad_argument);
 
     const auto status = write_glb(varied_scene(), "/no/such/folder/x.glb");
     REQUIRE_FALSE(status);

@@ -11,12 +11,11 @@
 namespace aglow {
 namespace {
 
-constexpr std::string_view kStressPrefix = "stress:";
-
 struct Entry {
     const char* name;
     const char* description;
-    Scene (*make)();  ///< none for a family
+    Scene (*make)();                         ///< none for a family
+    Scene (*make_sized)(int64_t) = nullptr;  ///< of a family, whose name ends in ":N"
 };
 
 constexpr Entry kEntries[] = {
@@ -26,18 +25,33 @@ constexpr Entry kEntries[] = {
      builtin::cube_tc58},
     {"corridor", "closed U-shaped corridor lit at one end", builtin::corridor},
     {"living-room", "furnished room with windows, sun and lamps", builtin::living_room},
-    {"stress:N", "room full of bumpy spheres, N triangles in all", nullptr},
+    {"walker", "mannequin that walks in place: a skinned mesh", builtin::walker},
+    {"marbles", "marbles that roll and knock together in a tray: rigid motion", builtin::marbles},
+    {"toys", "train, sailing boat and duck on a table: rigid motion and morphs", builtin::toys},
+    {"forest", "glade with a pond, its leaves and grass in the wind", builtin::forest},
+    {"scatter", "ball whose triangles fly apart, each on its own way, and meet again",
+     builtin::scatter},
+    {"stress:N", "room full of bumpy spheres, N triangles in all", nullptr, builtin::stress},
+    {"cad:N", "machine of densely packed parts, large and small, N triangles in all", nullptr,
+     builtin::cad},
 };
 
-Result<int64_t> stress_size(std::string_view text) {
+/// The family's name with its colon where `name` is of that family, else nothing.
+std::string_view prefix_of(const Entry& entry, std::string_view name) {
+    std::string_view prefix = entry.name;
+    prefix.remove_suffix(1);
+    return entry.make_sized && name.starts_with(prefix) ? prefix : std::string_view();
+}
+
+Result<Scene> make_sized(const Entry& entry, std::string_view name, std::string_view size) {
     int64_t count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size() || count < builtin::kMinStress ||
-        count > builtin::kMaxStress)
+    const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), count);
+    if (error != std::errc() || end != size.data() + size.size() ||
+        count < builtin::kMinTriangles || count > builtin::kMaxTriangles)
         return fail(Errc::bad_argument,
-                    fmt::format("stress:{}: N must be a number from {} to {}", text,
-                                builtin::kMinStress, builtin::kMaxStress));
-    return count;
+                    fmt::format("{}: N must be a number from {} to {}", name,
+                                builtin::kMinTriangles, builtin::kMaxTriangles));
+    return entry.make_sized(count);
 }
 
 }  // namespace
@@ -50,13 +64,11 @@ std::vector<BuiltinScene> builtin_scenes() {
 
 Result<Scene> builtin_scene(std::string_view name) {
     try {
-        if (name.starts_with(kStressPrefix)) {
-            AG_TRY(const int64_t count, stress_size(name.substr(kStressPrefix.size())));
-            return builtin::stress(count);
-        }
         std::string known;
         for (const Entry& entry : kEntries) {
             if (entry.make && entry.name == name) return entry.make();
+            if (const std::string_view prefix = prefix_of(entry, name); !prefix.empty())
+                return make_sized(entry, name, name.substr(prefix.size()));
             known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
         }
         return fail(Errc::bad_argument,

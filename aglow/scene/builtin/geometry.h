@@ -68,7 +68,13 @@ struct Lattice {
     Shape shape() const;  ///< all faces in one
 };
 
-/// Puts named shapes, materials, lights and the camera into a Scene, each object a root node.
+/// Quaternion of a turn about an axis through the origin, counter-clockwise seen from its tip.
+vec4 turn(vec3 axis, float degrees);
+/// The turn `first`, and then `second`.
+vec4 then(vec4 first, vec4 second);
+
+/// Puts named shapes, materials, lights and the camera into a Scene, each object a root node unless
+/// it is attached to another.
 class SceneBuilder {
 public:
     explicit SceneBuilder(std::string name) { scene_.name = std::move(name); }
@@ -78,17 +84,34 @@ public:
     /// The same with a texture that multiplies `tint`; `image` is sRGB-coded.
     int textured(TextureImage image, vec3 tint = {1, 1, 1});
     int luminous(std::string name, vec3 reflectance, vec3 luminance);  ///< cd/m^2
+    /// A quarter of its reflectance is diffuse: where reflections are not drawn it is not black.
+    int metal(std::string name, vec3 reflectance, float roughness);
+    /// A coat of paint under a clear gloss: diffuse, with dielectric reflections.
+    int glossy(std::string name, vec3 reflectance, float roughness);
     Material& material(int index) { return scene_.materials[static_cast<size_t>(index)]; }
 
-    /// An object of one material.
-    void add(std::string name, const Shape& shape, int material);
+    /// An object of one material. Result: its node.
+    int add(std::string name, const Shape& shape, int material);
     struct Part {
         const Shape& shape;
         int material;
     };
     /// An object of several materials, one primitive each.
-    void add(std::string name, std::initializer_list<Part> parts);
+    int add(std::string name, std::initializer_list<Part> parts);
+    /// A mesh without a place, for several nodes.
+    int add_mesh(std::string name, std::initializer_list<Part> parts);
+    int add_node(std::string name, int mesh = -1);  ///< a root node; mesh -1: none
+    void attach(int child, int parent);             ///< makes `child` a child node
+    Node& node(int index) { return scene_.nodes[static_cast<size_t>(index)]; }
+    Mesh& mesh(int index) { return scene_.meshes[static_cast<size_t>(index)]; }
+    int add_skin(Skin skin);
+    /// A channel of the scene's one animation.
+    void animate(int node, Path path, std::vector<float> times, std::vector<float> values,
+                 Interpolation interpolation = Interpolation::linear);
+    /// `turns` whole turns about `axis` in `seconds`, on top of the node's own rotation.
+    void spin(int node, vec3 axis, int turns, float seconds);
     void add_light(Light light, vec3 position);
+    void add_spot(Light light, vec3 position, vec3 target);
     /// Light from infinity: azimuth clockwise from north (-Z), elevation above the horizon.
     void add_directional(Light light, float azimuth_degrees, float elevation_degrees);
     void look(vec3 eye, vec3 target, float y_fov_degrees);  ///< the scene's camera

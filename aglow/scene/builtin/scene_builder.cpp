@@ -34,6 +34,18 @@ Primitive to_primitive(const Shape& shape, int material, bool has_texture) {
 
 }  // namespace
 
+vec4 turn(vec3 axis, float degrees) {
+    const float half = degrees * kPi / 360;
+    const vec3 v = normalize(axis) * std::sin(half);
+    return {v.x, v.y, v.z, std::cos(half)};
+}
+
+vec4 then(vec4 first, vec4 second) {
+    const vec3 a{second.x, second.y, second.z}, b{first.x, first.y, first.z};
+    const vec3 v = b * second.w + a * first.w + cross(a, b);
+    return {v.x, v.y, v.z, second.w * first.w - dot(a, b)};
+}
+
 int SceneBuilder::diffuse(std::string name, vec3 reflectance) {
     Material material;
     material.name = std::move(name);
@@ -59,14 +71,28 @@ int SceneBuilder::luminous(std::string name, vec3 reflectance, vec3 luminance) {
     return index;
 }
 
-void SceneBuilder::add(std::string name, const Shape& shape, int material) {
-    add(std::move(name), {{shape, material}});
+int SceneBuilder::metal(std::string name, vec3 reflectance, float roughness) {
+    const int index = glossy(std::move(name), reflectance, roughness);
+    material(index).metallic = 0.75f;
+    return index;
 }
 
-void SceneBuilder::add(std::string name, std::initializer_list<Part> parts) {
-    Node node;
-    node.name = name;
-    node.mesh = static_cast<int>(scene_.meshes.size());
+int SceneBuilder::glossy(std::string name, vec3 reflectance, float roughness) {
+    const int index = diffuse(std::move(name), reflectance);
+    material(index).roughness = roughness;
+    return index;
+}
+
+int SceneBuilder::add(std::string name, const Shape& shape, int material) {
+    return add(std::move(name), {{shape, material}});
+}
+
+int SceneBuilder::add(std::string name, std::initializer_list<Part> parts) {
+    const int mesh = add_mesh(name, parts);
+    return add_node(std::move(name), mesh);
+}
+
+int SceneBuilder::add_mesh(std::string name, std::initializer_list<Part> parts) {
     Mesh mesh;
     mesh.name = std::move(name);
     for (const Part& part : parts) {
@@ -74,7 +100,45 @@ void SceneBuilder::add(std::string name, std::initializer_list<Part> parts) {
         mesh.primitives.push_back(to_primitive(part.shape, part.material, has_texture));
     }
     scene_.meshes.push_back(std::move(mesh));
+    return static_cast<int>(scene_.meshes.size()) - 1;
+}
+
+int SceneBuilder::add_node(std::string name, int mesh) {
+    Node node;
+    node.name = std::move(name);
+    node.mesh = mesh;
     scene_.nodes.push_back(std::move(node));
+    return static_cast<int>(scene_.nodes.size()) - 1;
+}
+
+void SceneBuilder::attach(int child, int parent) {
+    node(child).parent = parent;
+    node(parent).children.push_back(child);
+}
+
+int SceneBuilder::add_skin(Skin skin) {
+    scene_.skins.push_back(std::move(skin));
+    return static_cast<int>(scene_.skins.size()) - 1;
+}
+
+void SceneBuilder::animate(int node, Path path, std::vector<float> times, std::vector<float> values,
+                           Interpolation interpolation) {
+    if (scene_.animations.empty()) scene_.animations.push_back({"motion", {}});
+    scene_.animations[0].channels.push_back(
+        {node, path, interpolation, std::move(times), std::move(values)});
+}
+
+void SceneBuilder::spin(int node, vec3 axis, int turns, float seconds) {
+    const vec4 rest = this->node(node).rotation;
+    const int keys = 4 * std::abs(turns);  // quarter turns: which way round is never in doubt
+    std::vector<float> times, values;
+    for (int k = 0; k <= keys; ++k) {
+        const float t = static_cast<float>(k) / static_cast<float>(keys);
+        const vec4 q = then(turn(axis, 360 * static_cast<float>(turns) * t), rest);
+        times.push_back(seconds * t);
+        values.insert(values.end(), {q.x, q.y, q.z, q.w});
+    }
+    animate(node, Path::rotation, std::move(times), std::move(values));
 }
 
 void SceneBuilder::add_light(Light light, vec3 position) {
@@ -84,6 +148,13 @@ void SceneBuilder::add_light(Light light, vec3 position) {
     node.light = static_cast<int>(scene_.lights.size());
     scene_.lights.push_back(std::move(light));
     scene_.nodes.push_back(std::move(node));
+}
+
+void SceneBuilder::add_spot(Light light, vec3 position, vec3 target) {
+    light.kind = LightKind::spot;
+    add_light(std::move(light), position);
+    const Frame frame(normalize(position - target));  // lights shine along -Z of their node
+    scene_.nodes.back().rotation = quaternion(frame.tangent, frame.bitangent, frame.normal);
 }
 
 void SceneBuilder::add_directional(Light light, float azimuth_degrees, float elevation_degrees) {

@@ -11,9 +11,17 @@ Scene furnace();
 Scene cube_tc58();
 Scene corridor();
 Scene living_room();
+Scene walker();
+Scene marbles();
+Scene toys();
+Scene forest();
+Scene scatter();
 
-inline constexpr int64_t kMinStress = 12, kMaxStress = 20'000'000;
+/// Sizes of the families.
+inline constexpr int64_t kMinTriangles = 12, kMaxTriangles = 20'000'000;
 /// As many triangles as possible without exceeding `triangle_count`.
 Scene stress(int64_t triangle_count);
+/// At most `triangle_count` triangles, and more than `triangle_count` - 12.
+Scene cad(int64_t triangle_count);
 
 }  // namespace aglow::builtin
