@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/bake/bake.h"
 
+#include "aglow/accel/hidden_points.h"
 #include "aglow/bake/solve.h"
-#include "aglow/transport/hidden_points.h"
 
 #include <algorithm>
 #include <chrono>

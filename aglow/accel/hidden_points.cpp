@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/transport/hidden_points.h"
+#include "aglow/accel/hidden_points.h"
 
 #include "aglow/core/parallel.h"
 #include "aglow/shared/sampling.h"
 #include "aglow/shared/sobol.h"
-#include "aglow/transport/irradiance.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/transport/hidden_points.h"
+#include "aglow/accel/hidden_points.h"
 
 #include "tests/quad.h"
 
