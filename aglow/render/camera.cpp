@@ -105,31 +105,44 @@ View view_of(const Camera& camera, const mat4& to_world, int width, int height) 
 
 }  // namespace
 
-Ray View::ray(float x, float y) const {
-    const float right = (2 * x / static_cast<float>(width) - 1) * half_width;
-    const float up = (1 - 2 * y / static_cast<float>(height)) * half_height;
-    if (perspective)
-        return {transform_point(to_world, {0, 0, 0}),
-                normalize(transform_direction(to_world, {right, up, -1}))};
-    return {transform_point(to_world, {right, up, 0}),
-            normalize(transform_direction(to_world, {0, 0, -1}))};
+shared::CameraView View::shared_view() const {
+    const auto column = [&](int i) {
+        return vec3{to_world.at(0, i), to_world.at(1, i), to_world.at(2, i)};
+    };
+    shared::CameraView view{};
+    view.to_world = {column(0), column(1), column(2), column(3)};
+    view.half_width = half_width;
+    view.half_height = half_height;
+    view.perspective = perspective ? 1u : 0u;
+    view.width = static_cast<uint32_t>(width);
+    view.height = static_cast<uint32_t>(height);
+    return view;
 }
 
-Result<View> choose_view(const Scene& scene, const Surfaces& surfaces, const RayScene& rays,
-                         std::string_view camera, int width, int height, double time) {
+Ray View::ray(float x, float y) const {
+    const shared::CameraRay ray = shared::camera_ray(shared_view(), x, y);
+    return {ray.origin, ray.direction};
+}
+
+Result<std::optional<View>> camera_view(const Scene& scene, std::string_view camera, int width,
+                                        int height, double time) {
     if (width < 1 || height < 1)
         return fail(Errc::bad_argument,
                     fmt::format("an image of {}x{} pixels is empty", width, height));
-    int node = -1;
-    if (camera == "auto") {
-        node = first_camera_node(scene);
-        if (node < 0) return render::cpu::automatic_view(surfaces, rays, width, height);
-    } else {
+    int node = first_camera_node(scene);
+    if (camera == "auto" && node < 0) return std::nullopt;
+    if (camera != "auto") {
         AG_TRY(node, find_camera_node(scene, camera));
     }
     const auto index = static_cast<size_t>(node);
     const Camera& chosen = scene.cameras[static_cast<size_t>(scene.nodes[index].camera)];
     return view_of(chosen, world_transforms(scene, time)[index], width, height);
+}
+
+Result<View> choose_view(const Scene& scene, const Surfaces& surfaces, const RayScene& rays,
+                         std::string_view camera, int width, int height, double time) {
+    AG_TRY(const std::optional<View> view, camera_view(scene, camera, width, height, time));
+    return view ? *view : render::cpu::automatic_view(surfaces, rays, width, height);
 }
 
 }  // namespace aglow

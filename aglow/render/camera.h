@@ -3,7 +3,9 @@
 #include "aglow/accel/ray_scene.h"
 #include "aglow/core/result.h"
 #include "aglow/scene/scene.h"
+#include "aglow/shared/camera.h"
 
+#include <optional>
 #include <string_view>
 
 namespace aglow {
@@ -18,6 +20,7 @@ struct View {
 
     /// Ray through (x, y) in pixels, (0, 0) the outer corner of the top left one.
     Ray ray(float x, float y) const;
+    shared::CameraView shared_view() const;  ///< the same for shaders
 };
 
 /// Picks a camera: a number, a name (of a camera or of its node), or "auto": the first camera that
@@ -31,5 +34,12 @@ struct View {
 /// Errors  bad_argument (no such camera; names those there are).
 Result<View> choose_view(const Scene& scene, const Surfaces& surfaces, const RayScene& rays,
                          std::string_view camera, int width, int height, double time);
+
+/// A camera as choose_view() picks it, where its node puts it at any time.
+/// Result  none for "auto" in a scene without cameras: what choose_view() then shows depends on the
+///         pose, and should be chosen once for a sequence.
+/// Errors  bad_argument (no such camera, an empty image).
+Result<std::optional<View>> camera_view(const Scene& scene, std::string_view camera, int width,
+                                        int height, double time);
 
 }  // namespace aglow

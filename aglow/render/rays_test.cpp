@@ -14,6 +14,7 @@ using namespace aglow;
 namespace {
 
 constexpr int kMap = 8;  // texels of the lightmap's side
+constexpr RaysOptions kMatte{.reflections = 0};
 
 /// The square [-1, 1]^2 in the plane z = 0 that faces +Z, its lightmap over the whole atlas.
 Scene square() {
@@ -42,8 +43,9 @@ struct Stage {
     static RayScene trace(const Scene& scene, const Surfaces& surfaces) {
         return RayScene::create(scene, surfaces).value();
     }
-    Image image(const View& view, const Image& irradiance, const RaysOptions& options = {}) const {
-        return render_rays(scene, surfaces, rays, view, irradiance, options).value();
+    Image image(const View& view, const Image& irradiance,
+                const RaysOptions& options = kMatte) const {
+        return render_rays({scene, surfaces, rays}, view, irradiance, options).value();
     }
 
     Scene scene;
@@ -144,7 +146,7 @@ TEST_CASE("misses show the sky: north in the middle, east to the right, up on to
                            0,
                            5,
                            1};
-        return stage.image(view, constant(0), {.samples = 1}).pixels[0];
+        return stage.image(view, constant(0), {.samples = 1, .reflections = 0}).pixels[0];
     };
     // The middle of pixel (column, row) is at azimuth (column + 0.5) / 8 turns from the south.
     const auto direction = [](float column, float row) {
@@ -168,7 +170,8 @@ TEST_CASE("misses show the sky: north in the middle, east to the right, up on to
 TEST_CASE("an edge that halves a pixel halves its luminance") {
     // Pixels are 0.25 wide; the square's edge at x = 1 runs through the middle of the last column.
     const Stage stage(square());
-    const Image image = stage.image(view_from(2, 1.125f, 9), constant(100), {.samples = 1024});
+    const Image image =
+        stage.image(view_from(2, 1.125f, 9), constant(100), {.samples = 1024, .reflections = 0});
     const double full = 0.5 / 3.14159265 * 100;
     CHECK(image.at(8, 4).x == doctest::Approx(full / 2).epsilon(0.02));
     CHECK(image.at(0, 4).x == doctest::Approx(full / 2).epsilon(0.02));
@@ -196,7 +199,9 @@ TEST_CASE("a picture has the same bits for one thread and for two") {
     const Stage stage(square());
     const auto run = [&](int threads) {
         const ThreadLimit limit(threads);
-        return stage.image(view_from(2, 1.3f, 40), ramp(), {.samples = 5, .seed = 9}).pixels;
+        return stage
+            .image(view_from(2, 1.3f, 40), ramp(), {.samples = 5, .reflections = 0, .seed = 9})
+            .pixels;
     };
     CHECK(run(1) == run(2));
 }
@@ -205,7 +210,7 @@ TEST_CASE("missing lightmap coordinates, no samples and interruption are errors"
     Stage stage(square());
     const View view = view_from(2, 1, 4);
     const auto code = [&](const RaysOptions& options, const Monitor& monitor = {}) {
-        return render_rays(stage.scene, stage.surfaces, stage.rays, view, constant(1), options,
+        return render_rays({stage.scene, stage.surfaces, stage.rays}, view, constant(1), options,
                            monitor)
             .error()
             .code;

@@ -2,18 +2,17 @@
 #include "aglow/render/rays.h"
 
 #include "aglow/core/parallel.h"
-#include "aglow/core/random.h"
-#include "aglow/encode/lightmap.h"
+#include "aglow/render/cpu/draw.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <new>
 
 namespace aglow {
+namespace render::cpu {
 namespace {
 
 constexpr size_t kPixels = 256;  // of one task
@@ -34,8 +33,8 @@ Status for_each_pixel(const View& view, const Monitor& monitor, const auto& draw
     return {};
 }
 
-Status check(const Surfaces& surfaces, const View& view) {
-    if (surfaces.lightmap_uvs.size() != surfaces.positions.size())
+Status check_view(const Surfaces& surfaces, const View& view, const Image* irradiance) {
+    if (irradiance && surfaces.lightmap_uvs.size() != surfaces.positions.size())
         return fail(Errc::bad_argument, "the surfaces have no lightmap coordinates");
     if (view.width < 1 || view.height < 1)
         return fail(Errc::bad_argument,
@@ -43,123 +42,167 @@ Status check(const Surfaces& surfaces, const View& view) {
     return {};
 }
 
-vec3 baked(const Surfaces& surfaces, const Image& irradiance, SurfacePoint at) {
-    const uvec3 t = surfaces.triangles[at.triangle];
-    const float b1 = at.barycentrics.x, b2 = at.barycentrics.y;
-    const std::vector<vec2>& uvs = surfaces.lightmap_uvs;
-    return sample_lightmap(irradiance, uvs[t.x] * (1 - b1 - b2) + uvs[t.y] * b1 + uvs[t.z] * b2);
+tl::unexpected<Error> no_memory_for(const View& view) {
+    return fail(Errc::out_of_memory,
+                fmt::format("not enough memory for {} x {} pixels", view.width, view.height));
 }
 
-/// Luminance of the sky: bilinear between pixels, wrapped around the horizon.
-vec3 sky_luminance(const Scene& scene, vec3 direction) {
-    if (!scene.sky) return {0, 0, 0};
-    if (!scene.sky->image) return scene.sky->luminance;
-    const Image& image = *scene.sky->image;
-    const float turn = std::atan2(direction.x, -direction.z) / (2 * kPi);
-    const float polar = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPi;
-    const float x = (0.5f + turn) * static_cast<float>(image.width) - 0.5f;
-    const float y = polar * static_cast<float>(image.height) - 0.5f;
-    const float left = std::floor(x), top = std::floor(y);
-    const auto pixel = [&](int i, int k) {
-        const int column = ((i % image.width) + image.width) % image.width;
-        return image.at(column, std::clamp(k, 0, image.height - 1));
-    };
-    const int i = static_cast<int>(left), k = static_cast<int>(top);
-    const vec3 upper = shared::mix(pixel(i, k), pixel(i + 1, k), x - left);
-    const vec3 lower = shared::mix(pixel(i, k + 1), pixel(i + 1, k + 1), x - left);
-    return scene.sky->luminance * shared::mix(upper, lower, y - top);
-}
+/// A ray on its way through the scene.
+struct Path {
+    Ray ray;
+    shared::RayCone cone;
+    vec3 weight = {1, 1, 1};  ///< share of its luminance that reaches the camera
+};
 
-/// Everything a camera ray needs to become a luminance.
-struct Shader {
-    const Scene& scene;
-    const Surfaces& surfaces;
-    const RayScene& rays;
-    const Image& irradiance;
+/// Follows camera rays.
+struct Tracer {
+    const World& world;
+    const RaysOptions& options;
+    uint64_t ray_count = 0;
 
-    vec3 luminance_along(const Ray& ray) const {
-        const std::optional<Hit> hit = rays.intersect(ray);
-        if (!hit) return sky_luminance(scene, ray.direction);
-        const vec3 color = base_color(scene, surfaces, hit->at);
-        const int index = surfaces.part(hit->at.triangle).material;
-        const Material* material = index < 0 ? nullptr : &scene.materials[size_t(index)];
-        if (material && material->unlit) return color * kUnlitWhite;
-        const vec3 limit = {kMaxReflectance, kMaxReflectance, kMaxReflectance};
-        vec3 result = shared::min(color, limit) * baked(surfaces, irradiance, hit->at) * (1 / kPi);
-        if (material && (hit->front || material->double_sided))
-            result += emitted_luminance(scene, surfaces, hit->at);
-        return result;
+    vec3 luminance_along(Path path, uint32_t pixel, uint32_t sample) {
+        vec3 sum{0, 0, 0};
+        for (uint32_t depth = 0;; ++depth) {
+            ++ray_count;
+            const std::optional<Hit> hit = world.rays.intersect(path.ray);
+            if (!hit) return sum + path.weight * sky_luminance(world.scene, path.ray.direction);
+            path.cone = shared::advanced_cone(path.cone, hit->distance);
+            const Surface surface = surface_at(world.surfaces, world.tables.materials, *hit,
+                                               path.ray.direction, path.cone);
+            if (surface.flags & shared::kMaterialUnlit)
+                return sum + path.weight * surface.color.base_color * kUnlitWhite;
+            const shared::SurfaceLook look = look_of(surface, path, depth);
+            sum += path.weight * shown(surface, look, path, {pixel, sample, depth});
+            if (look.mirror == vec3{0, 0, 0}) return sum;
+            reflect(path, surface, look.mirror);
+        }
+    }
+
+    shared::SurfaceLook look_of(const Surface& surface, const Path& path, uint32_t depth) const {
+        if (options.reflections == 0) return shared::matte_look(surface.color);
+        const float cosine = -dot(surface.normal, path.ray.direction) * surface.side();
+        return shared::surface_look(surface.color, cosine, path.weight,
+                                    depth < static_cast<uint32_t>(options.reflections) ? 1u : 0u);
+    }
+
+    /// Luminance of a surface but for its mirror image.
+    vec3 shown(const Surface& surface, const shared::SurfaceLook& look, const Path& path,
+               Draw draw) {
+        Gloss gloss;
+        gloss.wanted = options.reflections > 0;
+        if (gloss.wanted) {
+            gloss.kind =
+                options.shading == Shading::phong ? shared::kHighlightPhong : shared::kHighlightGgx;
+            gloss.f0 = shared::normal_reflectance(surface.color);
+            gloss.alpha =
+                shared::lobe_alpha(surface.color.roughness, surface.curvature, path.cone.width);
+            gloss.to_viewer = -path.ray.direction;
+        }
+        const Incoming light = incoming_light(world, surface, gloss, draw, ray_count);
+        return surface.color.emitted + look.diffuse * light.irradiance + look.mean * light.mean +
+               light.highlight;
+    }
+
+    static void reflect(Path& path, const Surface& surface, vec3 mirror) {
+        const float side = surface.side();
+        const vec3 g = surface.geometric_normal * side;
+        path.ray = {offset_origin(surface.position, g, surface.magnitude),
+                    shared::mirror_direction(path.ray.direction, surface.normal * side, g)};
+        path.cone = shared::reflected_cone(path.cone, surface.curvature, surface.color.roughness);
+        path.weight *= mirror;
     }
 };
 
-/// A number with a tent density on [-1, 1] from a uniform one.
-float tent(float u) {
-    return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(std::max(0.0f, 2 - 2 * u));
-}
-
-/// Where the rays of every pixel pass, relative to its middle: a Hammersley set, whose points are
-/// spread evenly in both directions, shifted at random. All pixels share it, so that straight edges
-/// look alike along their length.
-std::vector<vec2> filter_offsets(const RaysOptions& options) {
-    Pcg32 random(options.seed);
-    const float shift_x = random.uniform(), shift_y = random.uniform();
-    const auto wrap = [](float v) { return v < 1 ? v : v - 1; };
-    std::vector<vec2> offsets;
-    for (int i = 0; i < options.samples; ++i) {
-        float mirrored = 0, digit = 0.5f;  // the bits of i behind the binary point
-        for (int bits = i; bits > 0; bits >>= 1, digit /= 2)
-            if (bits & 1) mirrored += digit;
-        const float even = static_cast<float>(i) / static_cast<float>(options.samples);
-        offsets.push_back({tent(wrap(even + shift_x)), tent(wrap(mirrored + shift_y))});
-    }
-    return offsets;
-}
-
 }  // namespace
 
-Result<Image> render_rays(const Scene& scene, const Surfaces& surfaces, const RayScene& rays,
-                          const View& view, const Image& irradiance, const RaysOptions& options,
-                          const Monitor& monitor) try {
-    AG_CHECK(check(surfaces, view));
+Status check(const RaysOptions& options) {
     if (options.samples < 1)
         return fail(Errc::bad_argument,
                     fmt::format("{} rays per pixel: at least 1 is needed", options.samples));
-    const Shader shader{scene, surfaces, rays, irradiance};
-    const std::vector<vec2> offsets = filter_offsets(options);
+    if (options.reflections < 0 || options.reflections > kMostReflections)
+        return fail(Errc::bad_argument, fmt::format("{} reflections: 0 to {} can be followed",
+                                                    options.reflections, kMostReflections));
+    return {};
+}
+
+SharedTables shared_tables(const Scene& scene, const Surfaces& surfaces, bool baked,
+                           const RaysOptions& options) {
+    SharedTables tables;
+    tables.materials = material_table(scene);
+    if (!baked) {
+        tables.emitters = emitter_table(scene, surfaces);
+        tables.sky = sky_table(scene);
+    }
+    tables.offsets = filter_offsets(options);
+    tables.seed = draw_seed(options);
+    return tables;
+}
+
+Result<Image> draw(const World& world, const View& view, const RaysOptions& options,
+                   const Monitor& monitor, uint64_t& ray_count) try {
+    AG_CHECK(check_view(world.surfaces, view, world.stored.irradiance));
+    const std::vector<vec2>& offsets = world.tables.offsets;
+    const shared::CameraView camera = view.shared_view();
+    const shared::RayCone cone =
+        shared::camera_cone(camera, static_cast<uint32_t>(options.samples));
+    std::atomic<uint64_t> traced = 0;
     Image image(view.width, view.height);
-    const auto draw = [&](size_t pixel) {
+    AG_CHECK(for_each_pixel(view, monitor, [&](size_t pixel) {
         const auto row = static_cast<size_t>(view.width);
         const float x = static_cast<float>(pixel % row) + 0.5f;
         const float y = static_cast<float>(pixel / row) + 0.5f;
+        Tracer tracer{world, options};
         vec3 sum = {0, 0, 0};
-        for (const vec2 offset : offsets)
-            sum += shader.luminance_along(view.ray(x + offset.x, y + offset.y));
+        for (uint32_t i = 0; i < offsets.size(); ++i) {
+            const shared::CameraRay ray =
+                shared::camera_ray(camera, x + offsets[i].x, y + offsets[i].y);
+            sum += tracer.luminance_along({{ray.origin, ray.direction}, cone},
+                                          static_cast<uint32_t>(pixel), i);
+        }
         image.pixels[pixel] = sum / static_cast<float>(options.samples);
-    };
-    AG_CHECK(for_each_pixel(view, monitor, draw));
+        traced += tracer.ray_count;
+    }));
+    ray_count += traced;
     return image;
 } catch (const std::bad_alloc&) {
-    return fail(Errc::out_of_memory,
-                fmt::format("not enough memory for {} x {} pixels", view.width, view.height));
+    return no_memory_for(view);
+}
+
+}  // namespace render::cpu
+
+Result<Image> render_rays(const PosedScene& posed, const View& view, const Image& irradiance,
+                          const RaysOptions& options, const Monitor& monitor) try {
+    AG_CHECK(render::cpu::check(options));
+    const bool baked = !irradiance.pixels.empty();
+    const auto tables = render::cpu::shared_tables(posed.scene, posed.surfaces, baked, options);
+    const render::cpu::World world{
+        posed.scene,
+        posed.surfaces,
+        posed.rays,
+        tables,
+        {baked ? &irradiance : nullptr, true},
+        punctual_lights(posed.scene, world_transforms(posed.scene, posed.time))};
+    uint64_t ray_count = 0;
+    return render::cpu::draw(world, view, options, monitor, ray_count);
+} catch (const std::bad_alloc&) {
+    return render::cpu::no_memory_for(view);
 }
 
 Result<std::vector<float>> render_illuminance(const Surfaces& surfaces, const RayScene& rays,
                                               const View& view, const Image& irradiance,
                                               const Monitor& monitor) try {
-    AG_CHECK(check(surfaces, view));
+    AG_CHECK(render::cpu::check_view(surfaces, view, &irradiance));
     std::vector<float> lux(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
-    const auto draw = [&](size_t pixel) {
+    AG_CHECK(render::cpu::for_each_pixel(view, monitor, [&](size_t pixel) {
         const auto row = static_cast<size_t>(view.width);
         const float x = static_cast<float>(pixel % row), y = static_cast<float>(pixel / row);
         const std::optional<Hit> hit = rays.intersect(view.ray(x + 0.5f, y + 0.5f));
-        lux[pixel] = hit ? luminance(baked(surfaces, irradiance, hit->at))
+        lux[pixel] = hit ? luminance(render::cpu::baked_irradiance(surfaces, irradiance, hit->at))
                          : std::numeric_limits<float>::quiet_NaN();
-    };
-    AG_CHECK(for_each_pixel(view, monitor, draw));
+    }));
     return lux;
 } catch (const std::bad_alloc&) {
-    return fail(Errc::out_of_memory,
-                fmt::format("not enough memory for {} x {} pixels", view.width, view.height));
+    return render::cpu::no_memory_for(view);
 }
 
 }  // namespace aglow
