@@ -77,6 +77,9 @@ int run_command(Command& command, const std::vector<std::string>& arguments,
     }
     Status parsed = parse(table, arguments);
     if (parsed) parsed = check(shared);
+    if (parsed && !command.on_gpu && shared.device.starts_with("gpu"))
+        parsed =
+            fail(Errc::unsupported, fmt::format("`{}` runs on the CPU; use --device cpu", who));
     if (!parsed) {
         const int code = report(who, parsed.error());
         if (code == 1) fmt::print(stderr, "`{} --help` shows the options\n", who);

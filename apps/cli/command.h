@@ -19,6 +19,7 @@ struct Command {
     std::string usage;    ///< arguments after the name, for the first line of --help
     std::string summary;  ///< one sentence
     Table table;
+    bool on_gpu = false;                       ///< --device gpu makes sense
     std::function<Result<int>(Console&)> run;  ///< an exit code, or why there is none
 };
 
@@ -27,7 +28,11 @@ template <class Options>
 Command command(std::string name, std::string usage, std::string summary, Table (*table)(Options&),
                 Result<int> (*run)(const Options&, Console&)) {
     auto options = std::make_shared<Options>();
-    return {std::move(name), std::move(usage), std::move(summary), table(*options),
+    return {std::move(name),
+            std::move(usage),
+            std::move(summary),
+            table(*options),
+            false,
             [options, run](Console& console) { return run(*options, console); }};
 }
 

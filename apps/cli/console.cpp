@@ -18,10 +18,10 @@ ProgressStyle progress_style(const SharedOptions& options) {
 }
 
 Result<std::string> parse_device(const std::string& name) {
-    if (name == "auto" || name == "cpu") return std::string("cpu");
-    if (name == "gpu" || name.starts_with("gpu:"))
-        return fail(Errc::unsupported, "this build has no GPU device; use --device cpu");
-    return fail(Errc::bad_argument, fmt::format("\"{}\" is none of: auto, cpu", name));
+    if (name == "auto" || name == "cpu" || name == "gpu") return name;
+    if (name.starts_with("gpu:") && name.size() > 4) return name;
+    return fail(Errc::bad_argument,
+                fmt::format("\"{}\" is none of: auto, cpu, gpu, gpu:NAME", name));
 }
 
 }  // namespace
@@ -29,7 +29,8 @@ Result<std::string> parse_device(const std::string& name) {
 Table shared_table(SharedOptions& o) {
     constexpr int kMostThreads = 4096;
     return {
-        {"--device", parsed(&o.device, parse_device), "NAME", "auto or cpu (default auto)"},
+        {"--device", parsed(&o.device, parse_device), "NAME",
+         "auto (default), cpu, gpu or gpu:NAME; a GPU can do `aglow render`"},
         {"--threads", whole(&o.threads, 0, kMostThreads), "N",
          "threads to use; 0 (default): one for each core"},
         {"--seed", seed(&o.seed), "N", "seed of all random numbers (default 0)"},

@@ -16,8 +16,8 @@ namespace aglow::cli {
 
 /// What every command understands.
 struct SharedOptions {
-    std::string device = "cpu";
-    int threads = 0;  ///< 0: as many as there are cores
+    std::string device = "auto";  ///< "auto", "cpu", "gpu" or "gpu:NAME"
+    int threads = 0;              ///< 0: as many as there are cores
     uint64_t seed = 0;
     bool json = false;
     bool quiet = false;

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/encode/lit_gltf.h"
 #include "aglow/render/camera.h"
+#include "aglow/render/frames.h"
 #include "aglow/render/rays.h"
 #include "aglow/render/tone_map.h"
 #include "aglow/scene/image_file.h"
-#include "aglow/transport/path/path.h"
+#include "aglow/transport/irradiance.h"
 #include "command.h"
+#include "frame_range.h"
+#include "frame_source.h"
 #include "report.h"
 #include "scene_options.h"
 #include "solver_options.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
 
 namespace aglow::cli {
 namespace {
@@ -19,6 +26,8 @@ constexpr int kLongestSide = 16384;
 constexpr int kMostSamples = 1 << 20;
 constexpr int kRaysSamples = 16;
 constexpr int kPathSamples = 64;
+constexpr int kReflections = 2;
+constexpr double kFps = 30;
 
 enum class Engine : uint8_t { rays, path };
 
@@ -35,6 +44,11 @@ struct Options {
     std::optional<double> exposure;
     std::optional<int> samples;
     std::optional<int> bounces;
+    std::optional<int> reflections;
+    std::optional<Shading> shading;
+    std::optional<Accel> accel;
+    std::optional<FrameRange> frames;
+    std::optional<double> fps;
     SceneOptions scene;
 };
 
@@ -49,111 +63,242 @@ Result<Size> parse_size(const std::string& text) {
 
 Table table(Options& o) {
     Table rows = {
-        {"IN", file(&o.input), "", "scene; for --engine rays one that `aglow bake` has lit",
+        {"IN", file(&o.input), "",
+         "scene; --engine rays shows the light that `aglow bake` left in "
+         "it, else light that is direct",
          Need::required},
         {"-o,--output", file(&o.output), "OUT",
          "image: .png (tone-mapped), .exr or .hdr (luminance, cd/m^2)", Need::required},
         {"--engine",
          choice<Engine>(&o.engine, {{"rays", Engine::rays}, {"path", Engine::path}}, {"raster"}),
-         "NAME", "rays (default): shows baked light; path: brute-force path tracing"},
+         "NAME", "rays (default): ray tracing over baked light; path: brute-force path tracing"},
         {"--camera", text(&o.camera), "N|NAME|auto",
          "camera of the scene; auto (default): the first, else one that shows all"},
         {"--size", parsed(&o.size, parse_size), "WxH", "pixels (default 1280x720)"},
         {"--samples", whole(&o.samples, 1, kMostSamples), "N",
          fmt::format("rays or paths per pixel (default {} and {})", kRaysSamples, kPathSamples)},
+        {"--reflections", whole(&o.reflections, 0, kMostReflections), "N",
+         fmt::format("mirrors in mirrors with --engine rays (default {}); 0: no highlights either",
+                     kReflections)},
+        {"--shading",
+         choice<Shading>(&o.shading, {{"metallic-roughness", Shading::metallic_roughness},
+                                      {"phong", Shading::phong}}),
+         "NAME", "highlights of --engine rays: metallic-roughness (default) or phong"},
+        {"--accel",
+         choice<Accel>(&o.accel, {{"auto", Accel::automatic},
+                                  {"grid", Accel::grid},
+                                  {"grid2", Accel::grid2},
+                                  {"bvh", Accel::bvh}}),
+         "NAME", "how a GPU finds hits: auto (default), grid, grid2 (two-level) or bvh"},
         {"--bounces", parsed(&o.bounces, parse_bounces), "N|auto",
          "diffuse reflections with --engine path (default auto: all)"},
+        {"--frames", parsed(&o.frames, parse_frames), "A:B",
+         "frames A to B of the animation, into OUT-0000.png and so on"},
+        {"--fps", number_above(&o.fps, 0), "N",
+         fmt::format("frames in a second; frame 0 is at second 0 (default {})", kFps)},
         {"--exposure", number(&o.exposure, -100, 100), "EV",
-         "exposure of a .png in steps of two (default: by the picture)"},
+         "exposure of a .png in steps of two (default: by the picture, or the first frame)"},
     };
     rows += scene_table(o.scene);
     return rows;
 }
 
-Status check_contradictions(const Options& options) {
+/// Options of one engine that the other does not know.
+Status check_engine(const Options& options) {
+    if (options.engine == Engine::rays && options.bounces)
+        return fail(Errc::bad_argument,
+                    "--engine rays shows light that is baked; give --bounces to `aglow bake`, or "
+                    "take --engine path");
+    if (options.engine == Engine::path && (options.reflections || options.shading || options.accel))
+        return fail(Errc::bad_argument,
+                    "--engine path is diffuse and runs on the CPU; leave out --reflections, "
+                    "--shading and --accel, or take --engine rays");
+    return {};
+}
+
+Status check_contradictions(const Options& options, const Console& console) {
     AG_CHECK(check_output(options.output, {".png", ".exr", ".hdr"}, options.input));
     if (options.exposure && options.output.extension() != ".png")
         return fail(Errc::bad_argument,
                     "--exposure belongs to a .png; .exr and .hdr hold cd/m^2 as they are");
-    const SceneOptions& scene = options.scene;
-    if (options.engine == Engine::rays &&
-        (scene.sun || scene.clay || !scene.lights.empty() || options.bounces))
+    if (options.frames && options.scene.time)
         return fail(Errc::bad_argument,
-                    "--engine rays shows light that is baked; give --sun, --light, --clay and "
-                    "--bounces to `aglow bake`, or take --engine path");
+                    "--frames and --time contradict each other; give one of them");
+    if (options.fps && !options.frames)
+        return fail(Errc::bad_argument, "--fps belongs to --frames; give both, or --time");
+    if (options.engine == Engine::path && console.options().device.starts_with("gpu"))
+        return fail(Errc::unsupported, "--engine path runs on the CPU; use --device cpu");
+    return check_engine(options);
+}
+
+/// Light in the scene's file, or none.
+Result<std::optional<Lit>> baked_light(Scene& scene, const Options& options, Console& console) {
+    const size_t known_warnings = scene.warnings.size();
+    Result<Lit> lit = read_lit_gltf(scene, options.input);
+    if (!lit && lit.error().code == Errc::bad_argument) return std::nullopt;
+    if (!lit) return tl::unexpected<Error>(std::move(lit).error());
+    show_warnings(scene, options.input, console, known_warnings);
+    const SceneOptions& added = options.scene;
+    if (added.sun || added.clay || !added.lights.empty())
+        return fail(
+            Errc::bad_argument,
+            "the scene's light is baked; give --sun, --light and --clay to `aglow bake`, or "
+            "take --engine path",
+            options.input.string());
+    return std::move(*lit);
+}
+
+/// Does anything in the scene shine?
+bool shines(const Scene& scene) {
+    const auto emits = [](const Material& m) { return !m.unlit && luminance(m.emission) > 0; };
+    const auto unlit = [](const Material& m) { return m.unlit; };
+    return scene.sky || !scene.lights.empty() ||
+           std::any_of(scene.materials.begin(), scene.materials.end(), emits) ||
+           std::any_of(scene.materials.begin(), scene.materials.end(), unlit);
+}
+
+struct Source {
+    std::optional<Lit> lit;  ///< in its place before a renderer refers to it
+    std::unique_ptr<FrameRenderer> renderer;
+};
+
+Status open_source(const Options& options, Scene& scene, Console& console, Source& source) {
+    const uint64_t seed = console.options().seed;
+    if (options.engine == Engine::path) {
+        source.renderer = path_renderer(scene, options.bounces.value_or(kConverged),
+                                        options.samples.value_or(kPathSamples), seed);
+        return {};
+    }
+    AG_TRY(source.lit, baked_light(scene, options, console));
+    if (!source.lit && !shines(scene))
+        console.warn(fmt::format(
+            "{}: nothing in the scene shines; add --sky, --sun or --light, or light it with `aglow "
+            "bake`",
+            options.input.string()));
+    const Footage footage{scene,
+                          source.lit ? &*source.lit : nullptr,
+                          {.samples = options.samples.value_or(kRaysSamples),
+                           .reflections = options.reflections.value_or(kReflections),
+                           .shading = options.shading.value_or(Shading::metallic_roughness),
+                           .seed = seed}};
+    AG_TRY(source.renderer,
+           rays_renderer(footage, options.accel.value_or(Accel::automatic), console));
     return {};
 }
 
-/// Light that `aglow bake` left in the scene.
-Result<Lit> baked_light(Scene& scene, const std::filesystem::path& path) {
-    Result<Lit> lit = read_lit_gltf(scene, path);
-    if (!lit && lit.error().code == Errc::bad_argument)
-        return fail(Errc::bad_argument,
-                    fmt::format("{}; light it first: `aglow bake {} -o lit.glb`, or render it with "
-                                "--engine path",
-                                lit.error().message, path.string()),
-                    path.string());
-    return lit;
-}
+/// Draws and writes the frames one by one.
+class Sequence {
+public:
+    Sequence(const Options& options, const Scene& scene, FrameRenderer& renderer, Console& console)
+        : options_(options), scene_(scene), renderer_(renderer), console_(console) {}
 
-Result<Image> draw_rays(const Options& options, Scene& scene, Console& console) {
-    const size_t known_warnings = scene.warnings.size();
-    AG_TRY(const Lit lit, baked_light(scene, options.input));
-    show_warnings(scene, options.input, console, known_warnings);
-    const Surfaces surfaces = pose(scene, options.scene.pose_time(), &lit.atlas);
-    AG_TRY(const RayScene rays, RayScene::create(scene, surfaces));
-    AG_TRY(const View view, choose_view(scene, surfaces, rays, options.camera, options.size.width,
-                                        options.size.height, options.scene.pose_time()));
-    return render_rays(
-        scene, surfaces, rays, view, lit.irradiance,
-        {.samples = options.samples.value_or(kRaysSamples), .seed = console.options().seed},
-        console.monitor());
-}
+    Status run() {
+        const FrameRange range = options_.frames.value_or(FrameRange{});
+        for (int frame = range.first; frame <= range.last; ++frame) {
+            const double share = 1.0 / (range.last - range.first + 1);
+            const double time =
+                options_.frames ? frame / options_.fps.value_or(kFps) : options_.scene.pose_time();
+            AG_TRY(const View view, view_at(time));
+            const Monitor whole = console_.monitor();
+            const Monitor part{[&](std::string_view stage, double fraction) {
+                                   whole.report(stage, (frame - range.first + fraction) * share);
+                               },
+                               whole.cancel};
+            AG_TRY(DrawnFrame drawn, renderer_.draw(time, view, part));
+            add(drawn);
+            AG_CHECK(write(std::move(drawn.luminance),
+                           options_.frames ? numbered(options_.output, frame) : options_.output));
+        }
+        return {};
+    }
 
-Result<Image> draw_paths(const Options& options, const Scene& scene, Console& console) {
-    const double time = options.scene.pose_time();
-    const Surfaces surfaces = pose(scene, time);
-    AG_TRY(const RayScene rays, RayScene::create(scene, surfaces));
-    const Lights lights(scene, surfaces, world_transforms(scene, time));
-    AG_TRY(const View view, choose_view(scene, surfaces, rays, options.camera, options.size.width,
-                                        options.size.height, time));
-    return trace_image(
-        {scene, surfaces, rays, lights}, view.width, view.height,
-        [&](float x, float y) { return view.ray(x, y); },
-        {.bounces = options.bounces.value_or(kConverged),
-         .samples = options.samples.value_or(kPathSamples),
-         .seed = console.options().seed},
-        console.monitor());
-}
+    void tell(Json& report) const {
+        report["accel"] = renderer_.accel();
+        if (options_.output.extension() == ".png") report["exposure_ev"] = exposure_.value_or(0);
+        report["frames"] = outputs_.size();
+        Json passes = Json::array();
+        for (const PassTime& pass : passes_)
+            passes.push_back({{"pass", pass.pass},
+                              {"seconds", pass.seconds / static_cast<double>(outputs_.size())}});
+        report["passes"] = passes;
+        report["rays"] = rays_;
+    }
+    const std::vector<std::filesystem::path>& outputs() const { return outputs_; }
+
+private:
+    /// A view that depends on the pose is that of the first frame, for all.
+    Result<View> view_at(double time) {
+        const auto [width, height] = options_.size;
+        AG_TRY(auto view, camera_view(scene_, options_.camera, width, height, time));
+        if (view) return *view;
+        if (!automatic_view_) {
+            const Surfaces surfaces = pose(scene_, time);
+            AG_TRY(const RayScene rays, RayScene::create(scene_, surfaces));
+            AG_TRY(automatic_view_,
+                   choose_view(scene_, surfaces, rays, options_.camera, width, height, time));
+        }
+        return *automatic_view_;
+    }
+
+    void add(const DrawnFrame& drawn) {
+        rays_ += drawn.rays;
+        for (const PassTime& pass : drawn.seconds) {
+            const auto known = std::find_if(passes_.begin(), passes_.end(),
+                                            [&](const PassTime& p) { return p.pass == pass.pass; });
+            if (known == passes_.end())
+                passes_.push_back(pass);
+            else
+                known->seconds += pass.seconds;
+        }
+    }
+
+    /// The exposure of the first frame holds for all, so that nothing flickers.
+    Status write(Image image, const std::filesystem::path& path) {
+        if (path.extension() == ".png") {
+            if (!exposure_)
+                exposure_ = options_.exposure ? static_cast<float>(*options_.exposure)
+                                              : automatic_exposure(image);
+            image = tone_map(image, *exposure_);
+        }
+        AG_CHECK(write_image(image, path));
+        outputs_.push_back(path);
+        return {};
+    }
+
+    const Options& options_;
+    const Scene& scene_;
+    FrameRenderer& renderer_;
+    Console& console_;
+    std::optional<View> automatic_view_;
+    std::optional<float> exposure_;
+    std::vector<PassTime> passes_;  // summed over the frames
+    uint64_t rays_ = 0;
+    std::vector<std::filesystem::path> outputs_;
+};
 
 Result<int> run(const Options& options, Console& console) {
-    AG_CHECK(check_contradictions(options));
+    AG_CHECK(check_contradictions(options, console));
     const Stopwatch total;
     AG_TRY(Scene scene, prepare_scene(options.input, options.scene, console));
     const double load_seconds = total.seconds();
-    const bool by_rays = options.engine == Engine::rays;
-    Result<Image> drawn =
-        by_rays ? draw_rays(options, scene, console) : draw_paths(options, scene, console);
-    AG_TRY(Image image, std::move(drawn));
-    const double draw_seconds = total.seconds() - load_seconds;
+    Source source;
+    AG_CHECK(open_source(options, scene, console, source));
+    const double prepare_seconds = total.seconds() - load_seconds;
+    Sequence sequence(options, scene, *source.renderer, console);
+    AG_CHECK(sequence.run());
 
-    AG_CHECK(console.go_on("write"));
     Json report = {{"scene", options.input.string()},
-                   {"device", "cpu"},
-                   {"engine", by_rays ? "rays" : "path"},
-                   {"size", {image.width, image.height}}};
-    if (options.output.extension() == ".png") {
-        const float exposure =
-            options.exposure ? static_cast<float>(*options.exposure) : automatic_exposure(image);
-        report["exposure_ev"] = exposure;
-        image = tone_map(image, exposure);
-    }
-    AG_CHECK(write_image(image, options.output));
+                   {"device", source.renderer->device()},
+                   {"engine", options.engine == Engine::rays ? "rays" : "path"},
+                   {"size", {options.size.width, options.size.height}}};
+    sequence.tell(report);
+    const double all_seconds = total.seconds();
     report["seconds"] = {{"load", rounded_seconds(load_seconds)},
-                         {"draw", rounded_seconds(draw_seconds)},
-                         {"total", rounded_seconds(total.seconds())}};
+                         {"prepare", rounded_seconds(prepare_seconds)},
+                         {"draw", rounded_seconds(all_seconds - load_seconds - prepare_seconds)},
+                         {"total", rounded_seconds(all_seconds)}};
     report["peak_memory_bytes"] = peak_memory_bytes();
-    report["outputs"] = names({options.output});
+    report["outputs"] = names(sequence.outputs());
     report["warnings"] = scene.warnings;
     print_report(console, report);
     return kExitDone;
@@ -162,7 +307,9 @@ Result<int> run(const Options& options, Console& console) {
 }  // namespace
 
 Command render_command() {
-    return command("render", "IN -o OUT.png [options]", "draws a scene", table, run);
+    Command result = command("render", "IN -o OUT.png [options]", "draws a scene", table, run);
+    result.on_gpu = true;
+    return result;
 }
 
 }  // namespace aglow::cli

@@ -150,7 +150,13 @@ class CommandLine(unittest.TestCase):
             (("measure", "plane.gltf", "-o", "m.csv", "--points", "p", "--image", "i.png"),
              "--image"),
             (("render", "plane.gltf", "-o", "r.png", "--size", "10"), "WIDTH"),
-            (("render", "plane.gltf", "-o", "r.png"), "aglow bake"),
+            (("render", "lit.glb", "-o", "r.png", "--frames", "3"), "FIRST:LAST"),
+            (("render", "lit.glb", "-o", "r.png", "--frames", "5:3"), "3:5"),
+            (("render", "lit.glb", "-o", "r.png", "--frames", "0:1", "--time", "1"), "--time"),
+            (("render", "lit.glb", "-o", "r.png", "--fps", "24"), "--frames"),
+            (("render", "lit.glb", "-o", "r.png", "--engine", "path", "--reflections", "1"),
+             "--engine rays"),
+            (("render", "lit.glb", "-o", "r.png", "--device", "cpu", "--accel", "bvh"), "--accel"),
             (("render", "lit.glb", "-o", "r.png", "--light", "0,0,0,1"), "--engine path"),
             (("render", "lit.glb", "-o", "r.exr", "--exposure", "1"), ".png"),
             (("render", "lit.glb", "-o", "r.png", "--camera", "no such"), "no such"),
@@ -309,6 +315,43 @@ class CommandLine(unittest.TestCase):
         validated = self.json_of("validate", "--filter", "point light", "--scale", "1")
         self.assertTrue(validated["passed"])
         self.assertGreater(len(validated["cases"]), 0)
+
+    def test_frames_are_numbered_files_of_one_exposure(self):
+        report = self.json_of("render", "lit.glb", "-o", "f.png", "--size", "32x24", "--frames",
+                              "2:4", "--fps", "10", "--device", "cpu")
+        self.assertEqual(report["outputs"], ["f-0002.png", "f-0003.png", "f-0004.png"])
+        self.assertEqual((report["frames"], report["device"]), (3, "cpu"))
+        self.assertEqual([p["pass"] for p in report["passes"]], ["pose", "build", "trace"])
+        self.assertGreaterEqual(report["rays"], 3 * 32 * 24 * 16)
+        still = [(self.dir / name).read_bytes() for name in report["outputs"]]
+        self.assertEqual(still[0], still[1])
+        self.assertEqual(still[0], still[2])
+        self.assertFalse((self.dir / "f.png").exists())
+
+    def test_an_interrupted_sequence_keeps_the_finished_frames(self):
+        process = subprocess.Popen(
+            [AGLOW, "render", "lit.glb", "-o", "long.png", "--frames", "0:999", "--size",
+             "160x120"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        while not (self.dir / "long-0001.png").exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        frames = sorted(self.dir.glob("long*"))
+        self.assertGreaterEqual(len(frames), 2)
+        self.assertEqual([f.name for f in frames],
+                         [f"long-{i:04}.png" for i in range(len(frames))])
+        for frame in frames:
+            self.assertEqual(frame.read_bytes()[-12:], frames[0].read_bytes()[-12:])  # IEND
+
+    def test_light_is_computed_on_the_spot_where_none_is_baked(self):
+        sun = ("--size", "16x16", "--sun", "0,60,1000", "--samples", "64")
+        self.run_aglow("render", "plane.gltf", "-o", "sun.exr", *sun, "--reflections", "0")
+        self.run_aglow("render", "plane.gltf", "-o", "path.exr", *sun, "--engine", "path")
+        self.run_aglow("compare", "sun.exr", "path.exr", "--max-rmse", "5")
+        dark = self.run_aglow("render", "plane.gltf", "-o", "dark.exr", "--size", "16x16")
+        self.assertIn("nothing in the scene shines", dark.stderr)
 
     def test_text_says_what_json_says(self):
         text = self.run_aglow("info", "plane.gltf").stdout
