@@ -29,6 +29,9 @@ struct TopNode {
 };
 AG_BUFFER_OF(TopNode);
 
+// Levels of that tree below its root, at most: how deep a walk's stack has to be.
+AG_CONST uint kTopDepth = 32u;
+
 // All that rays can hit. An empty scene has instance_count = 0.
 struct TraceScene {
     InstancePtr instances;
@@ -45,5 +48,35 @@ struct TraceCounts {
 };
 AG_BUFFER_OF(TraceCounts);
 
+AG_CONST uint kTraceGroupSize = 64u;
+
+// Push constants of trace_rays.comp.
+struct TraceRaysArgs {
+    uint first_group;
+    uint ray_count;
+    TraceScenePtr scene;
+    RayQueryPtr rays;      // [ray_count]
+    RayHitPtr hits;        // [ray_count], where nearest hits are wanted
+    uintPtr blocked;       // [ray_count] 0 or 1, where any hit will do
+    TraceCountsPtr counts;  // [1] added to, where work is counted
+};
+
+AG_CONST uint kBoundsGroupSize = 128u;
+
+// Push constants of group_bounds.comp.
+struct GroupBoundsArgs {
+    uint first_group;
+    uint padding;
+    TrianglePtr triangles;
+    uvec2Ptr runs;    // per group of the dispatch: first triangle and count
+    BoundsPtr boxes;  // per group of the dispatch
+};
+
 AG_NAMESPACE_END
+#ifdef __cplusplus
+static_assert(sizeof(aglow::shared::Instance) == 64);
+static_assert(sizeof(aglow::shared::TopNode) == 32);
+static_assert(sizeof(aglow::shared::TraceScene) == 24);
+static_assert(sizeof(aglow::shared::TraceCounts) == 8);
+#endif
 #endif
