@@ -69,14 +69,18 @@ AG_FN vec3 bounded_color(vec3 color) {
     return result;
 }
 
-// Reflectance at normal incidence: 4 % of dielectrics (an index of refraction of 1.5), the base
-// colour of metals.
+// Reflectance at normal incidence of an index of refraction of 1.5.
+AG_FN vec3 dielectric_reflectance() {
+    vec3 result;
+    result.x = 0.04f;
+    result.y = 0.04f;
+    result.z = 0.04f;
+    return result;
+}
+
+// Reflectance at normal incidence; that of a metal is its base colour.
 AG_FN vec3 normal_reflectance(SurfaceColor color) {
-    vec3 dielectric;
-    dielectric.x = 0.04f;
-    dielectric.y = 0.04f;
-    dielectric.z = 0.04f;
-    return mix(dielectric, bounded_color(color.base_color), color.metallic);
+    return mix(dielectric_reflectance(), bounded_color(color.base_color), color.metallic);
 }
 
 // f0 + (f90 - f0) (1 - cosine)^5
@@ -117,11 +121,11 @@ AG_FN SurfaceLook matte_look(SurfaceColor color) {
 // 0 where no ray is worth it.
 AG_FN SurfaceLook surface_look(SurfaceColor color, float cosine, vec3 weight, uint mirrors) {
     vec3 f = rough_fresnel(normal_reflectance(color), color.roughness, cosine);
-    vec3 rest = bounded_color(color.base_color) * (1.0f - color.metallic);
+    // What is not metal is a diffuse ground under a clear coat, whatever the share of metal.
+    vec3 coat = rough_fresnel(dielectric_reflectance(), color.roughness, cosine);
     SurfaceLook look;
-    look.diffuse.x = (1.0f - f.x) * rest.x * 0.318309886f;
-    look.diffuse.y = (1.0f - f.y) * rest.y * 0.318309886f;
-    look.diffuse.z = (1.0f - f.z) * rest.z * 0.318309886f;
+    look.diffuse = bounded_color(color.base_color) *
+                   ((1.0f - color.metallic) * (1.0f - coat.x) * 0.318309886f);
     float share = mirrors != 0u ? mirror_share(color.roughness) : 0.0f;
     vec3 seen = weight * f * share;
     if (max(seen.x, max(seen.y, seen.z)) < kLeastMirrored) share = 0.0f;
