@@ -43,7 +43,8 @@ function(aglow_doctest name)
     add_test(NAME ${name} COMMAND ${name}_test)
     # Random cases are the same in every run, and not made smaller, which can take hours:
     # set RC_PARAMS by hand to hunt with other seeds or to shrink what failed.
-    set_tests_properties(${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "RC_PARAMS=seed=1 noshrink=1")
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600 ENVIRONMENT
+        "RC_PARAMS=seed=1 noshrink=1;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp")
 endfunction()
 
 function(aglow_stage name)

@@ -40,6 +40,7 @@ bool contains(const std::string& text, std::string_view part) {
 }  // namespace
 
 TEST_CASE("devices are listed best first, with what they are") {
+    keep_driver_loaded();
     std::vector<GpuInfo> gpus = list_gpus();
     for (const GpuInfo& gpu : gpus) {
         CHECK_FALSE(gpu.name.empty());
@@ -53,6 +54,7 @@ TEST_CASE("devices are listed best first, with what they are") {
 }
 
 TEST_CASE("a device opens by part of its name in any case") {
+    keep_driver_loaded();
     std::vector<GpuInfo> gpus = list_gpus();
     if (gpus.empty()) return;
     std::string part = gpus[0].name.substr(1);
@@ -73,6 +75,7 @@ TEST_CASE("a device opens by part of its name in any case") {
 }
 
 TEST_CASE("without a driver there is no device and a clear error") {
+    keep_driver_loaded();
     Environment icds("VK_ICD_FILENAMES", "/nonexistent.json");
     Environment drivers("VK_DRIVER_FILES", "/nonexistent.json");
     CHECK(list_gpus().empty());
@@ -83,6 +86,7 @@ TEST_CASE("without a driver there is no device and a clear error") {
 }
 
 TEST_CASE("validation that is asked for and not installed is an error") {
+    keep_driver_loaded();
     Environment layers("VK_LAYER_PATH", "/nonexistent");
     DeviceOptions options;
     options.validate = true;
@@ -93,6 +97,7 @@ TEST_CASE("validation that is asked for and not installed is an error") {
 }
 
 TEST_CASE("validation hears of what leaks when the device dies") {
+    keep_driver_loaded();
     DeviceOptions options;
     options.validate = true;
     options.messages = std::make_shared<Messages>();
@@ -111,6 +116,7 @@ TEST_CASE("validation hears of what leaks when the device dies") {
 }
 
 TEST_CASE("validation hears of work that lacks a barrier") {
+    keep_driver_loaded();
     DeviceOptions options;
     options.validate = true;
     auto gpu = Device::open(options);

@@ -31,7 +31,7 @@ TEST_CASE("allocations never share memory, and blocks without use go back") {
         std::vector<Allocation> taken;
         uint64_t bytes_in_use = 0;
         const auto steps =
-            *rc::gen::container<std::vector<uint32_t>>(60, rc::gen::arbitrary<uint32_t>());
+            *rc::gen::container<std::vector<uint32_t>>(40, rc::gen::arbitrary<uint32_t>());
         for (uint32_t random : steps) {
             if (random % 5 < 3 || taken.empty()) {
                 auto made = allocate(pool, 1 + random % (20 * kMiB));

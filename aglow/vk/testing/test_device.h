@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "aglow/vk/device.h"
+#include "aglow/vk/instance.h"
 #include "aglow/vk/stream.h"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,16 @@
 #include <string>
 
 namespace aglow::vk {
+
+/// Keeps the driver and the validation layer loaded until the program ends. Devices open faster so,
+/// and the leak sanitizer can see what the driver's global variables still point to.
+inline void keep_driver_loaded() {
+    static const Instance* const kept = [] {
+        auto instance = Instance::create(std::make_shared<Messages>());
+        return instance ? instance->release() : nullptr;
+    }();
+    static_cast<void>(kept);
+}
 
 /// The device of a test, with validation and synchronisation validation. When it dies, the test
 /// fails if there was any message, or if anything made from the device outlives it.
@@ -23,6 +34,7 @@ namespace aglow::vk {
 class TestDevice {
 public:
     explicit TestDevice(DeviceOptions options = {}) : messages_(std::make_shared<Messages>()) {
+        keep_driver_loaded();
         const char* named = std::getenv("AGLOW_TEST_GPU");
         if (options.name.empty()) options.name = named ? named : "llvmpipe";
         options.validate = true;
