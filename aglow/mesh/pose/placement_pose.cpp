@@ -2,6 +2,7 @@
 #include "aglow/mesh/pose/placement_pose.h"
 
 #include "aglow/mesh/pose/morph.h"
+#include "aglow/shared/pose.h"
 
 #include <algorithm>
 
@@ -24,49 +25,33 @@ void add_targets(std::vector<vec3>& values, const Primitive& primitive,
     }
 }
 
-/// World transform of each joint of the skin, applied after its inverse bind matrix. A skinned
-/// node has no transform of its own; its instances are placed relative to it.
-std::vector<mat4> joint_transforms(const Scene& scene, const NodePoses& poses,
-                                   const PlacedMesh& placed) {
-    const Node& node = scene.nodes[static_cast<size_t>(placed.node)];
-    const Skin& skin = scene.skins[static_cast<size_t>(node.skin)];
-    mat4 instance;
-    if (!node.instances.empty()) {
-        const mat4& world = poses.world[static_cast<size_t>(placed.node)];
-        instance = world * instance_transform(node, placed.instance) * inverse_affine(world);
-    }
-    std::vector<mat4> joints(skin.joints.size());
-    for (size_t j = 0; j < joints.size(); ++j) {
-        joints[j] = instance * poses.world[static_cast<size_t>(skin.joints[j])];
-        if (j < skin.inverse_bind.size()) joints[j] = joints[j] * skin.inverse_bind[j];
-    }
-    return joints;
+shared::Affine affine(const mat4& t) {
+    const auto column = [&](int i) { return vec3{t.at(0, i), t.at(1, i), t.at(2, i)}; };
+    return {column(0), column(1), column(2), column(3)};
 }
 
 /// Linear blend of the joints that move vertex v. Weights are divided by their sum, since files
 /// with 8-bit weights miss 1 by a little; a vertex without any weight follows its first joint.
-mat4 blend_joints(const std::vector<mat4>& joints, const Primitive& primitive, size_t v) {
+shared::Affine blend_joints(const std::vector<shared::Affine>& joints, const Primitive& primitive,
+                            size_t v) {
     const auto influences = static_cast<size_t>(primitive.influences);
     const uint32_t* joint = &primitive.joints[v * influences];
     const float* weight = &primitive.weights[v * influences];
     float sum = 0;
     for (size_t i = 0; i < influences; ++i) sum += weight[i];
     if (!(sum > 0)) return joints[joint[0]];
-    mat4 blend;
-    blend.m.fill(0);
-    for (size_t i = 0; i < influences; ++i) {
-        if (weight[i] == 0) continue;
-        for (size_t k = 0; k < 16; ++k) blend.m[k] += weight[i] / sum * joints[joint[i]].m[k];
-    }
+    shared::Affine blend = shared::affine_zero();
+    for (size_t i = 0; i < influences; ++i)
+        if (weight[i] != 0) blend = shared::add_joint(blend, joints[joint[i]], weight[i] / sum);
     return blend;
 }
 
-void transform_vertex(PosedVertices& posed, size_t v, const mat4& transform, bool mirrored) {
-    posed.positions[v] = transform_point(transform, posed.positions[v]);
-    const vec3 normal = transform_normal(transform, posed.normals[v]);
-    const float norm = length(normal);
-    posed.normals[v] = norm > 0 ? normal / norm : vec3{0, 0, 0};
-    posed.mirrored[v] = mirrored ? 1 : 0;
+void place_vertex(PosedVertices& posed, size_t v, const shared::Affine& transform) {
+    const shared::PosedVertex vertex =
+        shared::place_vertex(transform, posed.positions[v], posed.normals[v]);
+    posed.positions[v] = vertex.position;
+    posed.normals[v] = vertex.normal;
+    posed.mirrored[v] = static_cast<char>(vertex.mirrored);
 }
 
 }  // namespace
@@ -99,6 +84,23 @@ mat4 placement_transform(const Scene& scene, const NodePoses& poses, const Place
     return poses.world[n] * instance_transform(scene.nodes[n], placed.instance);
 }
 
+std::vector<mat4> joint_transforms(const Scene& scene, const NodePoses& poses,
+                                   const PlacedMesh& placed) {
+    const Node& node = scene.nodes[static_cast<size_t>(placed.node)];
+    const Skin& skin = scene.skins[static_cast<size_t>(node.skin)];
+    mat4 instance;
+    if (!node.instances.empty()) {
+        const mat4& world = poses.world[static_cast<size_t>(placed.node)];
+        instance = world * instance_transform(node, placed.instance) * inverse_affine(world);
+    }
+    std::vector<mat4> joints(skin.joints.size());
+    for (size_t j = 0; j < joints.size(); ++j) {
+        joints[j] = instance * poses.world[static_cast<size_t>(skin.joints[j])];
+        if (j < skin.inverse_bind.size()) joints[j] = joints[j] * skin.inverse_bind[j];
+    }
+    return joints;
+}
+
 PosedVertices pose_primitive(const Scene& scene, const NodePoses& poses, const PlacedMesh& placed,
                              const Primitive& primitive) {
     const Node& node = scene.nodes[static_cast<size_t>(placed.node)];
@@ -111,16 +113,15 @@ PosedVertices pose_primitive(const Scene& scene, const NodePoses& poses, const P
                 [](const MorphTarget& t) -> const std::vector<vec3>& { return t.normals; });
 
     if (node.skin >= 0 && primitive.influences > 0 && !primitive.joints.empty()) {
-        const std::vector<mat4> joints = joint_transforms(scene, poses, placed);
-        for (size_t v = 0; v < vertex_count; ++v) {
-            const mat4 blend = blend_joints(joints, primitive, v);
-            transform_vertex(posed, v, blend, determinant3(blend) < 0);
-        }
+        std::vector<shared::Affine> joints;
+        for (const mat4& joint : joint_transforms(scene, poses, placed))
+            joints.push_back(affine(joint));
+        for (size_t v = 0; v < vertex_count; ++v)
+            place_vertex(posed, v, blend_joints(joints, primitive, v));
         return posed;
     }
-    const mat4 transform = placement_transform(scene, poses, placed);
-    const bool mirrored = determinant3(transform) < 0;
-    for (size_t v = 0; v < vertex_count; ++v) transform_vertex(posed, v, transform, mirrored);
+    const shared::Affine transform = affine(placement_transform(scene, poses, placed));
+    for (size_t v = 0; v < vertex_count; ++v) place_vertex(posed, v, transform);
     return posed;
 }
 

@@ -22,6 +22,11 @@ struct PlacedMesh {
 /// All placements of the active scene, in the order of nodes and instances.
 std::vector<PlacedMesh> placed_meshes(const Scene& scene);
 
+/// World transform of each joint of the placed node's skin, applied after its inverse bind matrix.
+/// A skinned node has no transform of its own; its instances are placed relative to it.
+std::vector<mat4> joint_transforms(const Scene& scene, const NodePoses& poses,
+                                   const PlacedMesh& placed);
+
 /// World-space vertices of one placed primitive.
 struct PosedVertices {
     std::vector<vec3> positions;  ///< [vertex_count] m
