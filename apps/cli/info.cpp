@@ -2,7 +2,7 @@
 #include "aglow/mesh/surfaces.h"
 #include "aglow/scene/scene.h"
 #include "command.h"
-#include "machine.h"
+#include "devices.h"
 #include "report.h"
 #include "scene_options.h"
 
@@ -21,18 +21,6 @@ Table table(Options& o) {
     Table rows = {{"IN", file(&o.input), "", "scene; without it: the devices"}};
     rows += scene_table(o.scene);
     return rows;
-}
-
-Json devices(Console& console) {
-    return {{"version", AGLOW_VERSION},
-            {"devices",
-             Json::array({{{"name", "cpu"},
-                           {"processor", processor_name()},
-                           {"cores", core_count()},
-                           {"threads", console.options().threads > 0 ? console.options().threads
-                                                                     : core_count()},
-                           {"memory_bytes", memory_bytes()},
-                           {"ray_tracing", "Embree 3"}}})}};
 }
 
 Json triple(vec3 v) { return {v.x, v.y, v.z}; }
@@ -93,7 +81,8 @@ Json statistics(const Options& options, const Scene& scene) {
 
 Result<int> run(const Options& options, Console& console) {
     if (options.input.empty()) {
-        print_report(console, devices(console));
+        print_report(console, {{"version", AGLOW_VERSION},
+                               {"devices", device_list(console.options().threads)}});
         return kExitDone;
     }
     AG_TRY(const Scene scene, prepare_scene(options.input, options.scene, console));

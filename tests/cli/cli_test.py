@@ -306,7 +306,11 @@ class CommandLine(unittest.TestCase):
         scenes = {s["name"] for s in self.json_of("scene", "--list")["scenes"]}
         self.assertLessEqual({"cornell-box", "furnace", "cube-tc58", "corridor", "living-room"},
                              scenes)
-        self.assertEqual(self.json_of("info")["devices"][0]["name"], "cpu")
+        devices = self.json_of("info")["devices"]
+        self.assertEqual(devices[0]["name"], "cpu")
+        for gpu in devices[1:]:
+            self.assertTrue(gpu["name"].startswith("gpu:"), gpu)
+            self.assertIn(gpu["kind"], ("discrete", "integrated", "virtual", "software"))
         info = self.json_of("info", "plane.gltf", "--sun", "0,45,1000")
         self.assertEqual((info["triangles"], info["lights"]["directional"]), (2, 1))
         self.assertAlmostEqual(info["surface_area"], 400, delta=0.01)
