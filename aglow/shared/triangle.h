@@ -5,9 +5,9 @@
 // becomes the +z axis by a shear and a permutation of axes; which side of an edge it passes then
 // is the sign of a 2D cross product, which the two triangles of an edge compute from the same
 // products. Rounding is monotone, so the difference of two rounded products has the right sign or
-// is zero, whatever underflows; zero counts as inside, so that a ray through an edge hits at least
-// one of its triangles. Which way a triangle turns does not matter, so neither does the handedness
-// of the permuted axes.
+// is zero, and where it is zero the products' rounding errors decide: the test is exact for the
+// sheared corners. A ray right through an edge hits both its triangles. Which way a triangle turns
+// does not matter, so neither does the handedness of the permuted axes.
 #ifndef AGLOW_SHARED_TRIANGLE_H
 #define AGLOW_SHARED_TRIANGLE_H
 #include "aglow/shared/ray.h"
@@ -63,6 +63,28 @@ AG_FN ShearedRay sheared_ray(vec3 origin, vec3 direction) {
     return ray;
 }
 
+// a * b - product, where product is a * b rounded. Source: Dekker, "A Floating-Point Technique for
+// Extending the Available Precision", Numerische Mathematik 18, 1971.
+AG_FN float product_error(float a, float b, float product) {
+    AG_PRECISE float split_a = 4097.0f * a;
+    AG_PRECISE float split_b = 4097.0f * b;
+    AG_PRECISE float high_a = split_a - (split_a - a);
+    AG_PRECISE float high_b = split_b - (split_b - b);
+    AG_PRECISE float low_a = a - high_a;
+    AG_PRECISE float low_b = b - high_b;
+    AG_PRECISE float rest = high_a * high_b - product;
+    AG_PRECISE float error = ((rest + high_a * low_b) + low_a * high_b) + low_a * low_b;
+    return error;
+}
+
+// px * qy - py * qx, not zero unless it is.
+AG_FN float exact_cross(float px, float py, float qx, float qy) {
+    AG_PRECISE float left = px * qy;
+    AG_PRECISE float right = py * qx;
+    float rounded = left - right;
+    return rounded != 0.0f ? rounded : product_error(px, qy, left) - product_error(py, qx, right);
+}
+
 // Both sides of a triangle are hit; one that the ray sees edge-on, or with a corner that is not
 // finite, is not.
 AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float near, float far) {
@@ -78,6 +100,11 @@ AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float ne
     AG_PRECISE float u = cx * by - cy * bx;
     AG_PRECISE float v = ax * cy - ay * cx;
     AG_PRECISE float w = bx * ay - by * ax;
+    if (u == 0.0f || v == 0.0f || w == 0.0f) {  // rare
+        u = exact_cross(cx, cy, bx, by);
+        v = exact_cross(ax, ay, cx, cy);
+        w = exact_cross(bx, by, ax, ay);
+    }
 
     TriangleHit result;
     result.hit = 0u;

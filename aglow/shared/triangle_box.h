@@ -24,7 +24,7 @@ struct ProjectedTriangle {
 // which its plane rises least, and cells count from the first one of its box.
 struct CellTriangle {
     vec3 first;  // cell of the box's lower corner
-    vec3 size;   // cells of the box along each axis, > 0
+    vec3 size;   // cells of the box along each axis; <= 0: it lies beside the grid
     ProjectedTriangle xy, yz, zx;
     vec3 plane;    // the plane's height at (x, y) is plane.x * x + plane.y * y + plane.z
     float spread;  // how far from that height the triangle's part over a column's corner may be
@@ -57,7 +57,10 @@ AG_FN bool overlaps_projection(ProjectedTriangle p, float u, float v) {
            p.ca.x * u + p.ca.y * v + p.ca.z >= 0.0f;
 }
 
-AG_FN float cell_below(float x, float cells) { return clamp(floor(x), 0.0f, cells - 1.0f); }
+AG_FN float first_cell_of(float lower) { return max(floor(lower), 0.0f); }
+AG_FN float cells_between(float first, float upper, float cells) {
+    return min(floor(upper), cells - 1.0f) - first + 1.0f;
+}
 
 // a, b, c are corners of a usable triangle, `cells` the grid's resolution, both in cells.
 AG_FN CellTriangle cell_triangle(vec3 a, vec3 b, vec3 c, vec3 cells, float margin) {
@@ -72,17 +75,19 @@ AG_FN CellTriangle cell_triangle(vec3 a, vec3 b, vec3 c, vec3 cells, float margi
     n = permuted(n, t.axis);
 
     vec3 first;
-    first.x = cell_below(lower.x - margin, cells.x);
-    first.y = cell_below(lower.y - margin, cells.y);
-    first.z = cell_below(lower.z - margin, cells.z);
+    first.x = first_cell_of(lower.x - margin);
+    first.y = first_cell_of(lower.y - margin);
+    first.z = first_cell_of(lower.z - margin);
     vec3 size;
-    size.x = cell_below(upper.x + margin, cells.x) - first.x + 1.0f;
-    size.y = cell_below(upper.y + margin, cells.y) - first.y + 1.0f;
-    size.z = cell_below(upper.z + margin, cells.z) - first.z + 1.0f;
+    size.x = cells_between(first.x, upper.x + margin, cells.x);
+    size.y = cells_between(first.y, upper.y + margin, cells.y);
+    size.z = cells_between(first.z, upper.z + margin, cells.z);
     t.first = permuted(first, t.axis);
     t.size = permuted(size, t.axis);
-    float wide = (size.x > 1.0f ? 1.0f : 0.0f) + (size.y > 1.0f ? 1.0f : 0.0f) +
-                 (size.z > 1.0f ? 1.0f : 0.0f);
+    // A triangle is connected: one that stays within a row of cells is in all from first to last.
+    float wide = (floor(upper.x + margin) > floor(lower.x - margin) ? 1.0f : 0.0f) +
+                 (floor(upper.y + margin) > floor(lower.y - margin) ? 1.0f : 0.0f) +
+                 (floor(upper.z + margin) > floor(lower.z - margin) ? 1.0f : 0.0f);
     t.filled = wide < 2.0f ? 1u : 0u;
 
     vec3 p = permuted(a - first, t.axis);
@@ -107,7 +112,9 @@ AG_FN CellTriangle cell_triangle(vec3 a, vec3 b, vec3 c, vec3 cells, float margi
 }
 
 // Columns of cells along z that the triangle's box has.
-AG_FN uint column_count(CellTriangle t) { return uint(t.size.x) * uint(t.size.y); }
+AG_FN uint column_count(CellTriangle t) {
+    return uint(max(t.size.x, 0.0f)) * uint(max(t.size.y, 0.0f));
+}
 
 // First and last z of the cells of a column that the triangle may overlap; first > last: none.
 AG_FN vec2 column_range(CellTriangle t, float x, float y) {

@@ -60,7 +60,8 @@ Result<GridLevel> GridLevel::create(const Gpu& gpu, uint32_t level) {
 
 Result<GridLevel::Count> GridLevel::count(vk::Stream& stream, const vk::Buffer& work,
                                           shared::GridPairsArgs jobs) {
-    const uint64_t most_extras = pair_limit(jobs.job_count);
+    // Of 64 columns of a large triangle's box at least 16 hold a pair, or it is a rare sliver.
+    const uint64_t most_extras = pair_limit(jobs.job_count) / 16;
     for (;;) {
         AG_CHECK(reserve_items(stream, jobs.job_count, extra_count_));
         jobs.item_count = jobs.job_count + static_cast<uint32_t>(extra_count_);

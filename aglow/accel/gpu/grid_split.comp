@@ -16,7 +16,7 @@ void main() {
     uint extra = 0u;
     if (i < args.job_count) {
         Job j = job(i);
-        if (j.usable) extra = (column_count(j.triangle) - 1u) / kColumnsPerItem;
+        if (j.usable) extra = (max(column_count(j.triangle), 1u) - 1u) / kColumnsPerItem;
         args.extras.at[i] = extra;
     }
     AG_ADD_TO_SUM(args.work.at[0].extras, extra);

@@ -2,6 +2,7 @@
 #pragma once
 #include "aglow/accel/gpu/structure.h"
 #include "aglow/accel/gpu/testing/grid_rays.comp.h"
+#include "aglow/accel/gpu/testing/grid_read.comp.h"
 #include "aglow/accel/gpu/testing/grid_reference.h"
 #include "aglow/shared/structure.h"
 #include "aglow/vk/device.h"
@@ -34,10 +35,14 @@ public:
           stream_(must(vk::Stream::create(gpu))),
           structure_(must(kind == shared::kStructureGrid ? make_grid(gpu) : make_grid2(gpu))),
           nearest_(kernel(kind, 0)),
-          any_(kernel(kind, 1)) {}
+          any_(kernel(kind, 1)),
+          read_(must(vk::Kernel::create(gpu, "grid read", shaders::grid_read_comp))) {}
 
     Structure& structure() { return *structure_; }
     vk::Stream& stream() { return stream_; }
+
+    /// A stream that has failed stays so.
+    void renew_stream() { stream_ = must(vk::Stream::create(gpu_)); }
 
     Status build(std::span<const Triangle> triangles) {
         AG_TRY(triangles_, vk::make_buffer_of(stream_, triangles, "triangles"));
@@ -74,6 +79,21 @@ public:
         return traced;
     }
 
+    /// What lies at an address on the device.
+    template <class T>
+    std::vector<T> read(uint64_t address, uint64_t count) {
+        static_assert(sizeof(T) % 4 == 0);
+        vk::Buffer copy = must(gpu_->make_buffer(count * sizeof(T), "copy"));
+        struct {
+            uint32_t first_group;
+            uint32_t count;
+            uint64_t from, to;
+        } args = {0, static_cast<uint32_t>(count * sizeof(T) / 4), address, copy.address()};
+        stream_.barrier();
+        stream_.run(read_, args, vk::group_count(args.count, 64));
+        return must(stream_.download<T>(copy, count));
+    }
+
 private:
     template <class T>
     static T must(Result<T> result) {
@@ -88,7 +108,7 @@ private:
     Gpu gpu_;
     vk::Stream stream_;
     std::unique_ptr<Structure> structure_;
-    vk::Kernel nearest_, any_;
+    vk::Kernel nearest_, any_, read_;
     vk::Buffer triangles_;
 };
 
