@@ -15,18 +15,19 @@ struct RadixArgs {
     uint first_group;
     uint count;
     uint tile_count;
-    uint shift;             // of the digit in the key
-    uint digit_bits;        // its width
-    uintPtr keys;           // [count]
-    uintPtr values;         // [count]
-    uintPtr counts;         // [digits][tiles]: radix_count.comp: out, pairs of each digit in each
-                            // tile; radix_scatter.comp: where the first of them belongs
-    uintPtr sorted_keys;    // [count] out
+    uint shift;           // of the digit in the key
+    uint digit_bits;      // its width
+    uintPtr keys;         // [count]
+    uintPtr values;       // [count]
+    uintPtr tile_counts;  // [digits][tile_count] radix_count.comp: out, pairs of a digit in a tile;
+                          // radix_scatter.comp: where the first of them belongs
+    uintPtr run_counts;   // [tile_count][runs][digits] pairs of a digit in earlier runs of a tile
+    uintPtr sorted_keys;  // [count] out
     uintPtr sorted_values;  // [count] out
 };
 
 AG_NAMESPACE_END
 #ifdef __cplusplus
-static_assert(sizeof(aglow::shared::RadixArgs) == 64);
+static_assert(sizeof(aglow::shared::RadixArgs) == 72);
 #endif
 #endif

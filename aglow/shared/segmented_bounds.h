@@ -6,7 +6,7 @@
 AG_NAMESPACE_BEGIN
 
 AG_CONST uint kBoundsGroup = 256u;  // invocations
-AG_CONST uint kBoundsRun = 8u;      // boxes of each
+AG_CONST uint kBoundsRun = 16u;     // boxes of each
 
 // A box as six minima, of `lower` and of -`upper`, in unsigned integers of the same order as the
 // floats: atomics combine them, and in any order to the same bits.

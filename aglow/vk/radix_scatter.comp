@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves each pair to its place: behind those of smaller digits, those of the same digit in earlier
-// tiles, and those of the same digit before it in its own tile.
+// tiles, in earlier runs of its tile, and in its own run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/radix_sort.glsl"
 
 void main() {
-    count_digits();
-    barrier();
-    for (uint d = gl_LocalInvocationID.x; d < digit_count(); d += gl_WorkGroupSize.x) {
-        uint place = args.counts.at[d * args.tile_count + group_index()];
-        for (uint run = 0u; run < kRadixRuns; ++run) {
-            uint count = counters[run][d];
-            counters[run][d] = place;
-            place += count;
-        }
-    }
-    barrier();
+    uint run = run_index(gl_SubgroupID);
+    for (uint d = gl_SubgroupInvocationID; d < digit_count(); d += row_width())
+        counters[gl_SubgroupID][d] = args.tile_counts.at[d * args.tile_count + group_index()] +
+                                     args.run_counts.at[run * digit_count() + d];
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
     for (uint row = gl_SubgroupInvocationID; row < kRadixRun; row += row_width()) {
         uint i = run_begin() + row;
         uint key = load_key(i);
+        uint value = i < args.count ? args.values.at[i] : 0u;
         uint place = advance_counter(digit_of(key));
         if (i < args.count) {
             args.sorted_keys.at[place] = key;
-            args.sorted_values.at[place] = args.values.at[i];
+            args.sorted_values.at[place] = value;
         }
     }
 }

@@ -14,6 +14,11 @@ namespace {
 
 uint64_t tile_count(uint64_t count) { return group_count(count, shared::kRadixTile); }
 
+/// Memory for the counts of each digit in each tile and in each run.
+uint64_t counts_bytes(uint64_t tiles) {
+    return 4 * tiles * shared::kRadixDigits * (1 + shared::kRadixRuns);
+}
+
 }  // namespace
 
 Result<RadixSort> RadixSort::create(const Gpu& gpu) {
@@ -26,15 +31,15 @@ Result<RadixSort> RadixSort::create(const Gpu& gpu) {
 }
 
 Status RadixSort::reserve(uint64_t count) {
-    const uint64_t counts = shared::kRadixDigits * tile_count(count);
-    AG_CHECK(scan_.reserve(counts));
-    if (4 * count <= keys_.size() && 4 * counts <= counts_.size()) return {};
+    const uint64_t tiles = tile_count(count);
+    AG_CHECK(scan_.reserve(tiles * shared::kRadixDigits));
+    if (4 * count <= keys_.size() && counts_bytes(tiles) <= counts_.size()) return {};
     keys_ = {};
     values_ = {};
     counts_ = {};
     AG_TRY(keys_, gpu_->make_buffer(4 * count, "keys being sorted"));
     AG_TRY(values_, gpu_->make_buffer(4 * count, "values being sorted"));
-    AG_TRY(counts_, gpu_->make_buffer(4 * counts, "digit counts of a sort"));
+    AG_TRY(counts_, gpu_->make_buffer(counts_bytes(tiles), "digit counts of a sort"));
     return {};
 }
 
@@ -59,7 +64,8 @@ Sorted RadixSort::record(Stream& stream, uint64_t keys, uint64_t values, uint64_
                                      .digit_bits = digit_bits,
                                      .keys = from.keys,
                                      .values = from.values,
-                                     .counts = counts_.address(),
+                                     .tile_counts = counts_.address(),
+                                     .run_counts = counts_.address() + 4 * (tiles << digit_bits),
                                      .sorted_keys = to.keys,
                                      .sorted_values = to.values};
         if (pass > 0) stream.barrier();

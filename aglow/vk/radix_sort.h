@@ -22,6 +22,7 @@ struct Sorted {
 /// Result  where the sorted pairs lie: in `keys` and `values`, or in the sorter's own memory, where
 ///         the next record() overwrites them.
 /// Cost    per 8 bits of the keys: keys are read twice, values once, both are written once.
+///         Scratch memory is 10.3 bytes a pair.
 /// Source  Merrill & Grimshaw, "High Performance and Scalable Radix Sorting", Parallel Processing
 ///         Letters 21(2), 2011; places among equal digits after Ashkiani, Davidson, Meyer & Owens,
 ///         "GPU Multisplit", PPoPP 2016.
@@ -43,7 +44,7 @@ private:
     Kernel count_, scatter_;
     Scan scan_;
     Buffer keys_, values_;  // every other pass writes here
-    Buffer counts_;         // of each digit in each tile
+    Buffer counts_;         // of each digit in each tile, then in each run
 };
 
 }  // namespace aglow::vk

@@ -9,6 +9,8 @@
 using namespace aglow;
 using namespace aglow::vk;
 
+TEST_SUITE_BEGIN("primitives");
+
 namespace {
 
 struct Pairs {
@@ -19,8 +21,12 @@ struct Pairs {
 /// Values are the places of the keys before sorting, so they tell whether equal keys kept their
 /// order.
 struct Sorter : TestStream {
-    using TestStream::TestStream;
-    RadixSort sort = demand(RadixSort::create(gpu));
+    explicit Sorter(const TestDevice& device)
+        : Sorter(device, demand(RadixSort::create(device.gpu()))) {}
+    Sorter(const TestDevice& device, RadixSort sorter)
+        : TestStream(device), sort(std::move(sorter)) {}
+
+    RadixSort sort;
 
     Pairs device_sorted(const std::vector<uint32_t>& keys, uint32_t key_bits) {
         demand(sort.reserve(keys.size()));
@@ -121,6 +127,27 @@ TEST_CASE("keys in any order and of any frequency are sorted stably") {
         }
 }
 
+TEST_CASE("a sorter without memory says so, and sorts once it has got it") {
+    for (int failing = 0;; ++failing) {
+        CAPTURE(failing);
+        DeviceOptions options;
+        options.faults.fail_allocation = failing;
+        const TestDevice device(options);
+        if (!device) return;
+        auto sort = TestStream::demand(RadixSort::create(device.gpu()));
+        const Status reserved = sort.reserve(10'000);
+        if (reserved) {
+            CHECK(failing == device->allocation_count());
+            CHECK(failing == 4);  // keys, values, counts, sums of the counts
+            return;
+        }
+        CHECK(reserved.error().code == Errc::out_of_memory);
+        Sorter sorter(device, std::move(sort));
+        const std::vector<uint32_t> keys = random_uints(10'000);
+        CHECK((sorter.device_sorted(keys, 32) == host_sorted(keys)));
+    }
+}
+
 TEST_CASE("any keys are sorted stably") {
     const TestDevice device;
     if (!device) return;
@@ -134,3 +161,5 @@ TEST_CASE("any keys are sorted stably") {
     });
     CHECK(holds);
 }
+
+TEST_SUITE_END();

@@ -9,6 +9,8 @@
 using namespace aglow;
 using namespace aglow::vk;
 
+TEST_SUITE_BEGIN("primitives");
+
 namespace {
 
 struct Sums {
@@ -102,3 +104,5 @@ TEST_CASE("prefix sums hold for any values and any part of an array") {
     });
     CHECK(holds);
 }
+
+TEST_SUITE_END();

@@ -27,9 +27,15 @@ Minima shuffle(Minima m, uint lane) {
     return Minima(subgroupShuffle(m.lower, lane), subgroupShuffle(m.upper, lane));
 }
 
-// The last segment at or after `first` that starts at or before box i: the one that holds it.
+// The last segment that starts at or before box i: the one that holds it. Looks near `first`, which
+// starts at or before i, then farther and farther, and last between two bounds.
 uint segment_of(uint i, uint first) {
-    uint end = args.segment_count;
+    uint step = 1u;
+    while (step < args.segment_count - first && args.starts.at[first + step] <= i) {
+        first += step;
+        step *= 2u;
+    }
+    uint end = first + min(step, args.segment_count - first);
     while (end - first > 1u) {
         uint middle = first + (end - first) / 2u;
         if (args.starts.at[middle] <= i) first = middle;
