@@ -52,8 +52,7 @@ struct PosedScene {
 ///
 /// Pixels are filtered by a tent that is one pixel wide at half its height. Textures are read at
 /// the mip level that matches the width of a ray (shared/camera.h, shared/texture_lookup.h); alpha
-/// masks at full resolution. The light of highlights is what the surface's own texel is not told
-/// apart from: where E holds it already, E without it lights rough metals.
+/// masks at full resolution.
 ///
 /// Shapes  surfaces.lightmap_uvs filled (posed with its atlas) and `irradiance` of the atlas' size,
 ///         or `irradiance` empty.
