@@ -63,7 +63,8 @@ TEST_CASE("level 0 is what scene/texture samples, with any wrap, filter and tran
 }
 
 TEST_CASE("mip levels are means of linear light, alpha included, whatever the size") {
-    for (const auto& [width, height] : {std::pair(16, 16), std::pair(7, 5), std::pair(1, 9)}) {
+    for (const auto& size : {std::pair(16, 16), std::pair(7, 5), std::pair(1, 9)}) {
+        const int width = size.first, height = size.second;
         CAPTURE(width);
         const Scene scene = textured(noise(width, height));
         const MaterialTable table = material_table(scene);
