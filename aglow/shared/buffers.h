@@ -12,6 +12,7 @@ AG_BUFFER_OF(vec3);
 AG_BUFFER_OF(vec4);
 AG_BUFFER_OF(uvec2);
 AG_BUFFER_OF(uvec3);
+AG_BUFFER_OF(uvec4);
 
 AG_NAMESPACE_END
 #endif

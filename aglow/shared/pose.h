@@ -7,6 +7,8 @@ AG_NAMESPACE_BEGIN
 
 // Vertices or triangles of one part that one group of invocations works on.
 AG_CONST uint kPoseGroup = 64u;
+// Few vertices lack a normal, and mostly none: the groups that look for them take many chunks.
+AG_CONST uint kChunksPerRepairGroup = 16u;
 
 struct PoseChunk {
     uint part;   // index into the parts as the kernels know them: moving ones first
@@ -19,11 +21,11 @@ struct PosePart {
     vec3Ptr positions;   // [vertex_count] of its primitive, at rest
     vec3Ptr normals;     // [vertex_count]
     uvec3Ptr triangles;  // [triangle_count] counted from the part's first vertex
-    uintPtr joints;      // [vertex_count * influences]
-    floatPtr weights;    // [vertex_count * influences]
+    uvec4Ptr joints;     // [vertex_count * influences / 4]
+    vec4Ptr weights;     // [vertex_count * influences / 4]
     uint first_vertex, vertex_count;
     uint first_triangle, triangle_count;
-    uint influences;      // 0: no skin
+    uint influences;      // a multiple of 4; 0: no skin
     uint first_mirrored;  // of a skinned part: place of its first vertex in PoseArgs.mirrored
 };
 AG_BUFFER_OF(PosePart);
@@ -46,7 +48,7 @@ AG_BUFFER_OF(PoseTarget);
 
 struct PoseArgs {
     uint first_group;
-    uint unused;
+    uint chunk_count;  // read where normals are repaired
     PoseChunkPtr chunks;
     PosePartPtr parts;
     PoseStatePtr states;

@@ -11,6 +11,7 @@
 #include "aglow/vk/device.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -40,12 +41,17 @@ Scene skeleton_of(const Scene& scene) {
     return skeleton;
 }
 
-/// Indices of the parts, those that move first.
-std::vector<uint32_t> moving_first(std::span<const PartMotion> motions) {
+/// Indices of the parts: those that move first, and of these those without a skin first.
+std::vector<uint32_t> posing_order(std::span<const PartMotion> motions,
+                                   const std::vector<char>& skinned) {
     std::vector<uint32_t> order(motions.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_partition(order.begin(), order.end(),
-                          [&](uint32_t part) { return motions[part] != PartMotion::still; });
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        const auto rank = [&](uint32_t part) {
+            return 2 * (motions[part] == PartMotion::still) + (skinned[part] ? 1 : 0);
+        };
+        return rank(a) < rank(b);
+    });
     return order;
 }
 
@@ -69,15 +75,19 @@ std::vector<PoseChunk> cut(std::span<const uint32_t> order, size_t moving, Count
 }
 
 struct Kernels {
-    vk::Kernel vertices, triangles, normals;
+    vk::Kernel vertices, skinned_vertices, triangles, normals;
 
     static Result<Kernels> create(const Gpu& gpu) {
         AG_TRY(auto vertices,
                vk::Kernel::create(gpu, "pose vertices", shaders::pose_vertices_comp));
+        const std::array skin = {1u};
+        AG_TRY(auto skinned_vertices,
+               vk::Kernel::create(gpu, "pose skinned vertices", shaders::pose_vertices_comp, skin));
         AG_TRY(auto triangles,
                vk::Kernel::create(gpu, "pose triangles", shaders::pose_triangles_comp));
         AG_TRY(auto normals, vk::Kernel::create(gpu, "pose normals", shaders::pose_normals_comp));
-        return Kernels{std::move(vertices), std::move(triangles), std::move(normals)};
+        return Kernels{std::move(vertices), std::move(skinned_vertices), std::move(triangles),
+                       std::move(normals)};
     }
 };
 
@@ -103,6 +113,13 @@ struct DeviceSurfaces::State {
         uint32_t first_joint = 0;
     };
     std::vector<PlacedSkin> skins;
+
+    /// Chunks of vertices that one kernel poses, one behind the other.
+    struct Run {
+        size_t first = 0, count = 0;
+        bool skinned = false, moving = false;
+    };
+    std::vector<Run> runs;
     std::vector<uint32_t> first_joints;  ///< [part]
     uint32_t vertex_count = 0, triangle_count = 0;
     std::optional<bool> posed_at_rest;  ///< of the last pose()
@@ -183,6 +200,13 @@ void DeviceSurfaces::State::cut_chunks() {
     const auto vertices = [&](uint32_t part) { return parts[part].vertex_count; };
     const auto triangles = [&](uint32_t part) { return parts[part].triangle_count; };
     vertex_list = cut(order, part_extent.moving, vertices, vertex_chunk_extent);
+    for (size_t i = 0; i < vertex_list.size(); ++i) {
+        const uint32_t place = vertex_list[i].part;
+        const bool skin = is_skinned(order[place]), moving = place < part_extent.moving;
+        if (runs.empty() || runs.back().skinned != skin || runs.back().moving != moving)
+            runs.push_back({i, 0, skin, moving});
+        ++runs.back().count;
+    }
     triangle_list = cut(order, part_extent.moving, triangles, triangle_chunk_extent);
 }
 
@@ -256,7 +280,7 @@ void DeviceSurfaces::State::upload_pose(vk::Stream& stream, const NodePoses& pos
 
 shared::PoseArgs DeviceSurfaces::State::args(const vk::Buffer& chunks) const {
     return {.first_group = 0,
-            .unused = 0,
+            .chunk_count = 0,
             .chunks = chunks.address(),
             .parts = part_buffer.address(),
             .states = state_buffer.address(),
@@ -287,7 +311,7 @@ Result<DeviceSurfaces> DeviceSurfaces::create(vk::Stream& stream, const Scene& s
     state->transforms.resize(rest.parts.size());
     for (const SurfacePart& part : rest.parts)
         state->skinned.push_back(is_skinned(scene, part) ? 1 : 0);
-    state->order = moving_first(state->motions);
+    state->order = posing_order(state->motions, state->skinned);
     state->part_extent.all = rest.parts.size();
     state->part_extent.moving =
         rest.parts.size() - static_cast<size_t>(std::count(
@@ -317,12 +341,20 @@ Status DeviceSurfaces::pose(vk::Stream& stream, double time) {
     s.upload_pose(stream, node_poses(s.skeleton, time), everything);
     stream.fill(s.without_normal, 0, 0, sizeof(uint32_t));
     stream.barrier();
-    stream.run(s.kernels.vertices, s.args(s.vertex_chunks), vertex_groups);
+    for (const State::Run& run : s.runs) {
+        if (!everything && !run.moving) continue;
+        shared::PoseArgs args = s.args(s.vertex_chunks);
+        args.chunks += run.first * sizeof(PoseChunk);
+        stream.run(run.skinned ? s.kernels.skinned_vertices : s.kernels.vertices, args, run.count);
+    }
     stream.barrier();
     if (triangle_groups > 0)
         stream.run(s.kernels.triangles, s.args(s.triangle_chunks), triangle_groups);
     stream.barrier();
-    stream.run(s.kernels.normals, s.args(s.vertex_chunks), vertex_groups);
+    shared::PoseArgs args = s.args(s.vertex_chunks);
+    args.chunk_count = static_cast<uint32_t>(vertex_groups);
+    stream.run(s.kernels.normals, args,
+               vk::group_count(vertex_groups, shared::kChunksPerRepairGroup));
     return {};
 }
 

@@ -9,7 +9,7 @@
 layout(local_size_x = kPoseGroup) in;
 layout(push_constant, scalar) uniform Push { PoseArgs args; };
 
-// The vertex takes its normal from its first triangle that has one.
+// A vertex without normal takes its first triangle's that has one.
 void offer_normal(uint vertex, uint triangle) {
     if (args.normals.at[vertex] == vec3(0.0f))
         atomicMin(args.first_triangle.at[vertex], triangle);
@@ -22,8 +22,8 @@ void main() {
     if (triangle >= part.triangle_count) return;
 
     uvec3 vertices = part.triangles.at[triangle];
-    uint mirrored = part.influences > 0u ? args.mirrored.at[part.first_mirrored + vertices.x]
-                                         : args.states.at[chunk.part].mirrored;
+    uint mirrored = args.states.at[chunk.part].mirrored;
+    if (part.influences > 0u) mirrored = args.mirrored.at[part.first_mirrored + vertices.x];
     if (mirrored == 1u) vertices = vertices.xzy;
     vertices += part.first_vertex;
     uint place = part.first_triangle + triangle;
@@ -34,8 +34,11 @@ void main() {
     args.indices.at[place] = vertices;
     args.corners.at[place] = corners;
 
-    if (args.without_normal.at[0] == 0u || triangle_normal(corners) == vec3(0.0f)) return;
-    offer_normal(vertices.x, place);
-    offer_normal(vertices.y, place);
-    offer_normal(vertices.z, place);
+    // A loop that is rarely entered, and no branch: llvmpipe runs through both sides of branches.
+    for (uint repairs = args.without_normal.at[0]; repairs != 0u; repairs = 0u) {
+        if (triangle_normal(corners) == vec3(0.0f)) break;
+        offer_normal(vertices.x, place);
+        offer_normal(vertices.y, place);
+        offer_normal(vertices.z, place);
+    }
 }

@@ -5,21 +5,36 @@
 #include "aglow/vk/kernel.glsl"
 #include "aglow/shared/pose.h"
 
+layout(constant_id = 0) const bool kSkinned = false;
 layout(local_size_x = kPoseGroup) in;
 layout(push_constant, scalar) uniform Push { PoseArgs args; };
 
+// Joints without weight are not read: they may be anything.
+Affine add_joints(Affine blend, uint first_joint, uvec4 joints, vec4 weights) {
+    if (weights.x != 0.0f)
+        blend = add_joint(blend, args.joints.at[first_joint + joints.x], weights.x);
+    if (weights.y != 0.0f)
+        blend = add_joint(blend, args.joints.at[first_joint + joints.y], weights.y);
+    if (weights.z != 0.0f)
+        blend = add_joint(blend, args.joints.at[first_joint + joints.z], weights.z);
+    if (weights.w != 0.0f)
+        blend = add_joint(blend, args.joints.at[first_joint + joints.w], weights.w);
+    return blend;
+}
+
+float sum_of(float sum, vec4 w) { return (((sum + w.x) + w.y) + w.z) + w.w; }
+
 // A vertex without any weight follows its first joint.
 Affine blended_joints(PosePart part, uint first_joint, uint vertex) {
-    uint first = vertex * part.influences;
+    uint sets = part.influences / 4u;
+    uint first = vertex * sets;
     float sum = 0.0f;
-    for (uint i = 0u; i < part.influences; ++i) sum += part.weights.at[first + i];
-    if (!(sum > 0.0f)) return args.joints.at[first_joint + part.joints.at[first]];
+    for (uint s = 0u; s < sets; ++s) sum = sum_of(sum, part.weights.at[first + s]);
     Affine blend = affine_zero();
-    for (uint i = 0u; i < part.influences; ++i) {
-        float weight = part.weights.at[first + i];
-        if (weight == 0.0f) continue;
-        Affine joint = args.joints.at[first_joint + part.joints.at[first + i]];
-        blend = add_joint(blend, joint, weight / sum);
+    for (uint s = 0u; s < sets; ++s) {
+        vec4 weights = part.weights.at[first + s] / sum;
+        if (!(sum > 0.0f)) weights = vec4(s == 0u ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f);
+        blend = add_joints(blend, first_joint, part.joints.at[first + s], weights);
     }
     return blend;
 }
@@ -39,13 +54,13 @@ void main() {
         if ((target.moves & 2u) != 0u) normal += target.normals.at[vertex] * target.weight;
     }
     Affine transform = state.transform;
-    if (part.influences > 0u) transform = blended_joints(part, state.first_joint, vertex);
+    if (kSkinned) transform = blended_joints(part, state.first_joint, vertex);
     PosedVertex posed = place_vertex(transform, position, normal);
 
     uint place = part.first_vertex + vertex;
     args.positions.at[place] = posed.position;
     args.normals.at[place] = posed.normal;
-    if (part.influences > 0u) args.mirrored.at[part.first_mirrored + vertex] = posed.mirrored;
+    if (kSkinned) args.mirrored.at[part.first_mirrored + vertex] = posed.mirrored;
     if (posed.normal == vec3(0.0f)) {
         args.first_triangle.at[place] = kNoTriangle;
         args.without_normal.at[0] = 1u;
