@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mannequin that walks in place: one skinned mesh over nineteen joints. Facing +Z.
+// A mannequin that walks in place: one skinned mesh over seventeen joints. Facing +Z.
 #include "aglow/scene/builtin/scenes.h"
 #include "aglow/scene/builtin/studio.h"
 
