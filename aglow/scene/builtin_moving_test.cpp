@@ -80,7 +80,8 @@ TEST_CASE("the moving scenes have the sizes of those that they stand in for") {
                                                  {"toys", 11'000},
                                                  {"forest", 174'000},
                                                  {"scatter", 13'000}};
-    for (const auto& [name, size] : sizes) {
+    for (const auto& [scene_name, size] : sizes) {
+        const std::string name = scene_name;
         CAPTURE(name);
         const auto count = static_cast<double>(placed_triangles(make(name)));
         CHECK(count == doctest::Approx(static_cast<double>(size)).epsilon(0.04));
