@@ -21,6 +21,13 @@ struct GroupSize {
     uint32_t x = 0, y = 0, z = 0;
 };
 
+/// What is demanded of a kernel's subgroups. Group sizes that a constant decides are multiples of
+/// Device::subgroup_size(), so that subgroups of that size are full there too.
+struct Subgroups {
+    bool full = false;
+    uint32_t size = 0;  // 0: the driver chooses
+};
+
 /// The group size that a shader declares; 0 where a constant decides it.
 GroupSize group_size(std::span<const uint32_t> spirv) {
     constexpr uint32_t kOpExecutionMode = 16, kLocalSize = 17, kOpSpecConstantComposite = 51;
@@ -62,8 +69,11 @@ Result<PipelineLayout> make_layout(VkDevice device, std::string_view doing) {
 }
 
 Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelineLayout layout,
-                               std::span<const uint32_t> constants, bool full_subgroups,
+                               std::span<const uint32_t> constants, Subgroups subgroups,
                                std::string_view doing) {
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfo fixed{};
+    fixed.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO;
+    fixed.requiredSubgroupSize = subgroups.size;
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * 4, 4});
     VkSpecializationInfo values{};
@@ -79,7 +89,8 @@ Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelin
     info.stage.module = module;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = constants.empty() ? nullptr : &values;
-    if (full_subgroups)
+    if (subgroups.size > 0) info.stage.pNext = &fixed;
+    if (subgroups.full)
         info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
@@ -124,16 +135,18 @@ Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
             fmt::format("kernel \"{}\" has {} invocations in a group; GPU \"{}\" takes {}", name,
                         invocations, gpu->info().name, gpu->physical().max_group_size));
     }
-    bool full_subgroups =
-        gpu->physical().full_subgroups && size.x > 0 && size.x % gpu->subgroup_size() == 0;
+    const PhysicalDevice& physical = gpu->physical();
+    Subgroups subgroups;
+    subgroups.full = physical.full_subgroups && size.x > 0 && size.x % gpu->subgroup_size() == 0;
+    subgroups.size = physical.fixed_subgroups ? gpu->subgroup_size() : 0;
     Kernel kernel;
     kernel.gpu_ = gpu;
     kernel.name_ = name;
     AG_TRY(ShaderModule module, make_module(gpu->get(), spirv, doing));
     kernel.owned_ = std::make_shared<Owned>();
     AG_TRY(kernel.owned_->layout, make_layout(gpu->get(), doing));
-    AG_TRY(kernel.owned_->pipeline, make_pipeline(gpu->get(), module.get(), kernel.layout(),
-                                                  constants, full_subgroups, doing));
+    AG_TRY(kernel.owned_->pipeline,
+           make_pipeline(gpu->get(), module.get(), kernel.layout(), constants, subgroups, doing));
     kernel.rate_ = std::make_shared<KernelRate>();
     gpu->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(kernel.pipeline()), name);
     return kernel;

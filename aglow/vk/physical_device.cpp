@@ -114,6 +114,17 @@ void examine_properties(PhysicalDevice& device, std::vector<std::string>& missin
     examine_queues(device, limits.timestampPeriod, missing);
 }
 
+/// Can a kernel demand subgroups of the size that the device reports?
+bool can_fix_subgroups(VkPhysicalDevice handle) {
+    VkPhysicalDeviceSubgroupSizeControlProperties sizes{};
+    sizes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES;
+    VkPhysicalDeviceProperties2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    all.pNext = &sizes;
+    vkGetPhysicalDeviceProperties2(handle, &all);
+    return sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
 void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std::string>& missing) {
     std::vector<std::string> extensions = extensions_of(device.handle);
     auto has = [&](const char* name) {
@@ -138,6 +149,7 @@ void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std:
 
     device.full_subgroups = subgroups.subgroupSizeControl && subgroups.computeFullSubgroups;
     device.full_subgroups_extension = device.full_subgroups && !version_1_3;
+    device.fixed_subgroups = device.full_subgroups && can_fix_subgroups(device.handle);
     device.int64 = all.features.shaderInt64;
     auto offer = [&](bool offered, const char* name) {
         if (offered) device.info.features.push_back(name);

@@ -15,6 +15,7 @@ struct PhysicalDevice {
     uint32_t queue_family = 0;              ///< one that computes
     bool full_subgroups = false;            ///< they can be required of a kernel
     bool full_subgroups_extension = false;  ///< and that takes an extension
+    bool fixed_subgroups = false;           ///< and of info.subgroup_size
     bool int64 = false;                     ///< shaders have 64-bit integers
     float timestamp_period = 0;             ///< ns; 0: the queue has no timestamps
     uint64_t timestamp_mask = 0;            ///< the bits of a timestamp that count
