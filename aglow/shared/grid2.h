@@ -43,7 +43,8 @@ AG_FN uvec3 unpacked_resolution(uint packed) {
     return r;
 }
 
-// The grid in a cell of this shape for about `cells` leaf cells.
+// The grid in a cell of this shape for about `cells` leaf cells. Rounds to the nearest: always down
+// would make cells with few triangles half as fine as wanted.
 AG_FN uvec3 leaf_resolution(GridShape shape, float cells) {
     vec3 size;
     size.x = 1.0f / shape.cells_per_length.x;
@@ -51,9 +52,9 @@ AG_FN uvec3 leaf_resolution(GridShape shape, float cells) {
     size.z = 1.0f / shape.cells_per_length.z;
     float density = grid_density(size, cells);
     uvec3 r;
-    r.x = min(grid_axis(size.x * density), kMaxLeafAxis);
-    r.y = min(grid_axis(size.y * density), kMaxLeafAxis);
-    r.z = min(grid_axis(size.z * density), kMaxLeafAxis);
+    r.x = min(grid_axis(size.x * density + 0.5f), kMaxLeafAxis);
+    r.y = min(grid_axis(size.y * density + 0.5f), kMaxLeafAxis);
+    r.z = min(grid_axis(size.z * density + 0.5f), kMaxLeafAxis);
     return r;
 }
 

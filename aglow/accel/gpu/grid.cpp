@@ -14,7 +14,8 @@ using shared::kGridGroupSize;
 
 namespace {
 
-// Cells per triangle: see docs/performance.md.
+// Cells per triangle. Rays are fastest between 4 and 8 in scenes of even density; 8 costs a quarter
+// more build and memory.
 constexpr float kCellsPerTriangle = 4;
 
 /// What all grids of a scene share.

@@ -34,20 +34,30 @@ void trace_grid(uvec2 address, uint first_triangle, RayQuery query, bool any, in
     ShearedRay sheared = sheared_ray(entry.origin, query.direction);
     uvec3 resolution = grid.shape.resolution;
     ivec3 cell = cell_at(ray, entry.t, ivec3(0), ivec3(resolution) - 1);
-    do {
-        AG_COUNT_STEPS;
-        uint word = grid.cells.at[cell_index(cell, resolution)];
-        bool empty = (word & kEmptyCell) != 0u;
-        if (!empty && test_references(grid.triangles, grid.references, word, sheared, entry.near,
-                                      entry.offset, first_triangle, any, best)) {
+    // Through empty cells first, so that the rays of a subgroup meet again at triangles.
+    for (;;) {
+        bool inside = true;
+        uint word;
+        for (;;) {
+            AG_COUNT_STEPS;
+            word = grid.cells.at[cell_index(cell, resolution)];
+            if ((word & kEmptyCell) == 0u) break;
+            int skip = int(word & ~kEmptyCell);
+            vec3 exits = block_exits(ray, cell, skip);
+            float exit = min(min(exits.x, exits.y), exits.z);
+            cell = cell_behind(ray, cell, skip, exits, exit);
+            inside = exit < best.t && is_inside(cell, resolution);
+            if (!inside) break;
+        }
+        if (!inside || test_references(grid.triangles, grid.references, word, sheared, entry.near,
+                                       entry.offset, first_triangle, any, best)) {
             break;
         }
-        int skip = empty ? int(word & ~kEmptyCell) : 1;
-        vec3 exits = block_exits(ray, cell, skip);
+        vec3 exits = block_exits(ray, cell, 1);
         float exit = min(min(exits.x, exits.y), exits.z);
-        if (exit >= best.t) break;
-        cell = cell_behind(ray, cell, skip, exits, exit);
-    } while (is_inside(cell, resolution));
+        cell = next_cell(ray, cell, exits, exit);
+        if (exit >= best.t || !is_inside(cell, resolution)) break;
+    }
     if (best.triangle == kNoTriangle) return;
     hit = best;
     hit.t += entry.offset;

@@ -16,10 +16,10 @@ using shared::kGridGroupSize;
 
 namespace {
 
-// Cells per triangle of the first level, and per pair of the second: the values of Kalojanov,
-// Billeter & Slusallek.
+// Cells per triangle of the first level, as in Kalojanov, Billeter & Slusallek; and per pair of the
+// second, which they make 2.4. With 4, rays test a third less triangles for a fifth more memory.
 constexpr float kCellsPerTriangle = 0.12f;
-constexpr float kLeavesPerPair = 2.4f;
+constexpr float kLeavesPerPair = 4;
 
 /// What all two-level grids of a scene share.
 struct Grid2Tools {
