@@ -11,7 +11,7 @@ const char* name(Accel accel) {
 }
 
 Accel choose_accel(const AccelDemand& demand) {
-    return demand.rays_per_build < 1000 ? Accel::grid : Accel::grid2;
+    return demand.rays_per_build < 1000 ? Accel::grid : Accel::bvh;
 }
 
 }  // namespace aglow

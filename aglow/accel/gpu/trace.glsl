@@ -33,6 +33,7 @@
 #define AG_COUNT_TRIANGLES
 #endif
 
+#include "aglow/accel/gpu/bvh.glsl"
 #include "aglow/accel/gpu/grid.glsl"
 #include "aglow/accel/gpu/grid2.glsl"
 
@@ -50,6 +51,8 @@ void trace_instance(Instance instance, RayQuery ray, bool any, inout RayHit hit)
         trace_grid(instance.header, instance.first_triangle, local, any, hit);
     if (AG_IS_KIND(instance, kStructureGrid2))
         trace_grid2(instance.header, instance.first_triangle, local, any, hit);
+    if (AG_IS_KIND(instance, kStructureBvh))
+        trace_bvh(instance.header, instance.first_triangle, local, any, hit);
 }
 
 // One over each component; a zero becomes so small a number that a slab it is parallel to is

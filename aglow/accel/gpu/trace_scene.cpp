@@ -48,7 +48,7 @@ struct Member {
 Result<std::unique_ptr<Structure>> make_structure(const Gpu& gpu, Accel accel) {
     if (accel == Accel::grid) return make_grid(gpu);
     if (accel == Accel::grid2) return make_grid2(gpu);
-    return fail(Errc::unsupported, "there is no bvh");
+    return make_bvh(gpu);
 }
 
 /// Chords of the unit cube, between random points on opposite or adjoining faces; t from 0 to 1.

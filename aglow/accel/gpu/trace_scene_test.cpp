@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/accel/gpu/trace_scene.h"
 
+#include "aglow/accel/gpu/testing/agreement.h"
 #include "aglow/accel/gpu/trace_rays.h"
-#include "aglow/accel/testing/agreement.h"
 #include "aglow/core/random.h"
 #include "aglow/shared/triangle.h"
 #include "aglow/vk/testing/test_device.h"
@@ -22,7 +22,7 @@ using testing::Verdict;
 
 namespace {
 
-constexpr std::array kAccels = {Accel::grid, Accel::grid2};
+constexpr std::array kAccels = {Accel::grid, Accel::grid2, Accel::bvh};
 constexpr double kManyRays = 1e9;
 
 /// The box around (-1, -1, -1) and (1, 1, 1).
@@ -231,7 +231,7 @@ TEST_CASE("a body that vanishes into a point or grows a lot is rebuilt, and foun
     Rig rig(device);
     Source source(5);
     World world = scattered(6, Motion::rigid, 2, 4);
-    TraceScene scene = rig.make(world, Accel::grid2);
+    TraceScene scene = rig.make(world, Accel::bvh);
     const auto scaled = [](float s) { return compose({1, 0, 0}, {0, 0, 0, 1}, {s, s, s}); };
     for (const auto& [scale, built] :
          {std::pair{1.0f, 6u}, {0.0f, 1u}, {1.0f, 1u}, {3.0f, 0u}, {50.0f, 1u}, {0.01f, 0u}}) {
@@ -279,7 +279,7 @@ TEST_CASE("the order of groups does not matter") {
     Source source(7);
     World world = scattered(12, Motion::rigid, 3, 5);
     const auto rays = source.rays(2000, 6);
-    TraceScene scene = rig.make(world, Accel::grid2);
+    TraceScene scene = rig.make(world, Accel::bvh);
     rig.update(scene, world.triangles(), world.transforms);
     const auto hits = rig.trace(scene, rays);
 
@@ -289,7 +289,7 @@ TEST_CASE("the order of groups does not matter") {
         std::swap(world.groups[i], world.groups[j]);
         std::swap(world.transforms[i], world.transforms[j]);
     }
-    TraceScene shuffled = rig.make(world, Accel::grid2);
+    TraceScene shuffled = rig.make(world, Accel::bvh);
     rig.update(shuffled, triangles, world.transforms);
     check_hits(triangles, rays, rig.trace(shuffled, rays));
     check_hits(triangles, rays, hits);
@@ -388,30 +388,33 @@ TEST_CASE("triangles that fly apart and come together again are found all the wa
 TEST_CASE("an update that failed builds all anew") {
     World world = scattered(3, Motion::rigid, 5, 3);
     const auto triangles = world.triangles();
-    for (int n = 0;; ++n) {
-        CAPTURE(n);
+    /// Counts allocations before and in the first update; the n-th fails.
+    const auto run = [&](int n) -> std::pair<int, int> {
         vk::DeviceOptions options;
         options.faults.fail_allocation = n;
         vk::TestDevice device(options);
-        if (!device) return;
-        auto stream = vk::Stream::create(device.gpu());
-        auto buffer = device->make_buffer(triangles.size() * sizeof(Triangle), "world");
-        if (!stream || !buffer) continue;
-        stream->upload(std::span<const Triangle>(triangles), *buffer);
-        if (!stream->finish()) continue;
-        auto scene = TraceScene::create(device.gpu(), world.groups, Accel::grid2, kManyRays);
-        if (!scene) continue;
-        const TriangleSpan span{buffer->address(), static_cast<uint32_t>(triangles.size())};
-        const Status failed = scene->update(*stream, span, world.transforms);
-        if (failed) {
-            CHECK(n > 5);
-            return;
+        if (!device) return {0, 0};
+        vk::Stream stream = device.stream();
+        const vk::Buffer buffer =
+            *vk::make_buffer_of(stream, std::span<const Triangle>(triangles), "world");
+        REQUIRE(stream.finish());
+        auto scene = *TraceScene::create(device.gpu(), world.groups, Accel::bvh, kManyRays);
+        const int before = device->allocation_count();
+        const Status done = scene.update(
+            stream, {buffer.address(), static_cast<uint32_t>(triangles.size())}, world.transforms);
+        const int after = device->allocation_count();
+        CHECK(done.has_value() == (n < 0));
+        if (!done) {
+            CHECK(done.error().code == Errc::out_of_memory);
+            Rig rig(device);
+            rig.update(scene, triangles, world.transforms);
+            CHECK(scene.work().built == 3);
+            const auto rays = Source(11).rays(500, 4);
+            check_hits(triangles, rays, rig.trace(scene, rays));
         }
-        CHECK(failed.error().code == Errc::out_of_memory);
-        Rig rig(device);
-        rig.update(*scene, triangles, world.transforms);
-        CHECK(scene->work().built == 3);
-        const auto rays = Source(11).rays(500, 4);
-        check_hits(triangles, rays, rig.trace(*scene, rays));
-    }
+        return {before, after};
+    };
+    const auto [before, after] = run(-1);
+    for (const int quarter : {0, 1, 2, 3})
+        if (after > before) run(before + (after - 1 - before) * quarter / 3);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/accel/testing/rays.h"
+#include "aglow/accel/gpu/testing/rays.h"
 
 #include <cmath>
 #include <string>
