@@ -18,7 +18,7 @@ namespace {
 
 std::vector<Command> commands() {
     return {bake_command(),     render_command(), measure_command(), compare_command(),
-            validate_command(), scene_command(),  info_command()};
+            validate_command(), bench_command(),  scene_command(),   info_command()};
 }
 
 int exit_code(Errc code) {
@@ -109,9 +109,8 @@ int dispatch(const std::vector<std::string>& words, const Interrupt& interrupt) 
             return run_command(command, {words.begin() + 1, words.end()}, interrupt);
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
-    return report(
-        "aglow",
-        no_such_choice(words[0], names, {"refine", "simplify", "view", "web", "bench"}).value());
+    return report("aglow",
+                  no_such_choice(words[0], names, {"refine", "simplify", "view", "web"}).value());
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ Command command(std::string name, std::string usage, std::string summary, Table 
 }
 
 Command bake_command();
+Command bench_command();
 Command compare_command();
 Command info_command();
 Command measure_command();

@@ -100,7 +100,8 @@ class CommandLine(unittest.TestCase):
 
     def test_every_command_explains_itself(self):
         overview = self.run_aglow("--help").stdout
-        for command in ("bake", "render", "measure", "compare", "validate", "scene", "info"):
+        for command in ("bake", "render", "measure", "compare", "validate", "bench", "scene",
+                        "info"):
             self.assertIn(f"\n  {command} ", overview)
             text = self.run_aglow(command, "--help").stdout
             for shared in ("--device", "--threads", "--seed", "--json", "--quiet", "--verbose"):
@@ -120,6 +121,8 @@ class CommandLine(unittest.TestCase):
             ((), "Usage"),
             (("paint",), "paint"),
             (("bake",), "IN"),
+            (("bench", "speed"), "accel"),
+            (("bench", "accel", "--device", "cpu"), "--device gpu"),
             (("bake", "plane.gltf"), "--output"),
             ((*bake, "--shiny"), "--shiny"),
             ((*bake, "extra"), "extra"),
@@ -319,6 +322,27 @@ class CommandLine(unittest.TestCase):
         validated = self.json_of("validate", "--filter", "point light", "--scale", "1")
         self.assertTrue(validated["passed"])
         self.assertGreater(len(validated["cases"]), 0)
+
+    def test_structures_are_measured_beside_embree(self):
+        arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
+                     "--rays", "256", "--device", "gpu:llvmpipe")
+        if aglow(*arguments, cwd=self.dir).returncode == 5:
+            self.skipTest("there is no Vulkan driver")
+        report = self.json_of(*arguments)
+        self.assertIn("llvmpipe", report["device"])
+        self.assertEqual([s["scene"] for s in report["scenes"]], ["cornell-box", "plane.gltf"])
+        for scene in report["scenes"]:
+            embree, *structures = scene["structures"]
+            self.assertEqual([s["accel"] for s in structures], ["grid", "grid2", "bvh"])
+            for structure in structures:
+                self.assertGreater(structure["build_ms"], 0)
+                self.assertGreaterEqual(structure["references_per_triangle"], 1)
+                for rays in ("primary", "shadow", "diffuse"):
+                    self.assertEqual(structure[rays]["rays"], embree[rays]["rays"])
+                    self.assertGreater(structure[rays]["ratio_to_embree"], 0)
+        text = self.run_aglow(*arguments).stdout
+        for word in ("cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
+            self.assertIn(word, text)
 
     def test_frames_are_numbered_files_of_one_exposure(self):
         report = self.json_of("render", "lit.glb", "-o", "f.png", "--size", "32x24", "--frames",
