@@ -20,24 +20,24 @@ AG_CONST uint kBvhLeafSize = 3u;  // triangles in a leaf at most
 // back on trees of less and less quality to keep it: see bvh_collapse.h.
 AG_CONST uint kBvhMaxDepth = 24u;
 
-// 80 bytes. Per child, one byte each: slot i < 4 is byte i of .x, the others of .y.
+// 80 bytes. Planes have one byte for each child: that of slot i < 4 is byte i of .x, the others of
+// .y.
 struct BvhNode {
     vec3 origin;         // lower corner of the grid
-    uint exponents;      // cell edge of axis k is 2^(byte k - 127); byte 3: bit i, slot i is a node
+    uint exponents;      // cell edge of axis k is 2^(byte k - 127)
     uint child_base;     // the i-th slot that is a node is node child_base + i
-    uint triangle_base;  // triangles of leaves start here
-    uvec2 meta;          // leaf: first triangle | mask of its triangles << 5; others 0
+    uint triangle_base;  // the i-th triangle in a leaf is triangle triangle_base + i
+    uint slots;          // bit 3 i + k: slot i is a leaf with a triangle k; 24 + i: it is a node
+    uint unused;         // rows of 16 bytes make wide loads
     uvec2 lower_x, upper_x, lower_y, upper_y, lower_z, upper_z;
 };
 
 // 48 bytes, of which a ray reads the first 40; multiples of 16 make wide loads.
 struct BvhTriangle {
-    vec3 a;
+    vec3 a, b, c;
     uint triangle;  // among those the structure was built over
-    vec3 b;
-    uint absent;  // 1: not usable, and moved to one point, which nothing hits
-    vec3 c;
-    float pad_c;
+    uint absent;    // 1: not usable, and moved to one point, which nothing hits
+    uint unused;
 };
 
 AG_BUFFER_OF(BvhNode);
@@ -123,6 +123,12 @@ AG_FN uint grid_upper(float plane, float origin, float cell) {
     return uint(clamp(-floor(-cells * 1.0000005f), 0.0f, 255.0f));
 }
 
+// The triangles of the leaf in a slot, one bit each.
+AG_FN uint leaf_triangles(uint slots, uint slot) { return (slots >> (3u * slot)) & 7u; }
+
+// Whether the slot holds a node.
+AG_FN bool is_node_slot(uint slots, uint slot) { return ((slots >> (24u + slot)) & 1u) != 0u; }
+
 // Byte `slot` of the eight in `bytes`.
 AG_FN uint slot_byte(uvec2 bytes, uint slot) {
     return ((slot < 4u ? bytes.x : bytes.y) >> (8u * (slot & 3u))) & 255u;
@@ -149,7 +155,7 @@ AG_FN BvhNode gridded(BvhNode node, Bounds box) {
     uint x = empty ? 27u : grid_exponent(box.upper.x - box.lower.x);
     uint y = empty ? 27u : grid_exponent(box.upper.y - box.lower.y);
     uint z = empty ? 27u : grid_exponent(box.upper.z - box.lower.z);
-    r.exponents = (node.exponents & 0xff000000u) | x | (y << 8u) | (z << 16u);
+    r.exponents = x | (y << 8u) | (z << 16u);
     r.lower_x.x = r.lower_x.y = r.lower_y.x = r.lower_y.y = r.lower_z.x = r.lower_z.y = 0u;
     r.upper_x = r.lower_x;
     r.upper_y = r.lower_x;

@@ -146,6 +146,7 @@ void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std:
     require(features.scalarBlockLayout, "scalar block layout", missing);
     require(features.timelineSemaphore, "timeline semaphores", missing);
     require(features.hostQueryReset, "query reset by the host", missing);
+    require(all.features.shaderInt64, "64-bit integers in shaders", missing);
 
     device.full_subgroups = subgroups.subgroupSizeControl && subgroups.computeFullSubgroups;
     device.full_subgroups_extension = device.full_subgroups && !version_1_3;

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through a tree of quantised boxes: see shared/bvh.h. Included by accel/gpu/trace.glsl.
 //
-// One turn of the loop visits one node or tests one triangle, or both, so that rays that do
-// different things share the turn. What a node leaves to do is one entry on the stack, so the stack
-// is as long as the tree is deep.
+// One turn of the loop visits a node and tests the triangles it holds on the way of the ray. The
+// children to visit later are one entry on the stack, so the stack is as long as the tree is deep.
 #ifndef AGLOW_ACCEL_GPU_BVH_GLSL
 #define AGLOW_ACCEL_GPU_BVH_GLSL
+#extension GL_ARB_gpu_shader_int64 : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "aglow/shared/bvh.h"
 #include "aglow/shared/triangle.h"
 
-// The same memory in rows of 16 bytes, for wide loads.
+// The same memory in rows of 16 bytes, for wide loads; of two integers each, because lavapipe loads
+// component by component, and spends most of a ray's time there.
 layout(buffer_reference, buffer_reference_align = 16, scalar) readonly buffer BvhRowPtr {
-    uvec4 at[];
+    u64vec2 at[];
 };
+
+uvec4 row_words(u64vec2 row) { return uvec4(unpackUint2x32(row.x), unpackUint2x32(row.y)); }
 
 // A ray made ready for boxes. `t` of a box counts in lengths of the direction's largest component.
 struct BvhRay {
@@ -46,24 +49,18 @@ BvhRay bvh_ray(RayQuery ray, Bounds box) {
     return r;
 }
 
-// Children of a node that the ray meets, found in groups of four: `bytes` are the near and far
-// planes of the four on each axis. Sets bit k for the k-th.
+// Which of four children the ray meets, bit k for the k-th. The arguments named after axes have
+// their near and far planes.
 uint met_boxes(uint near_x, uint far_x, uint near_y, uint far_y, uint near_z, uint far_z,
                vec3 step, vec3 start, vec3 end, float near, float far) {
     uint met = 0u;
-#define AG_MEET(k)                                                                             \
-    {                                                                                          \
-        vec3 a = vec3(bitfieldExtract(near_x, 8 * k, 8), bitfieldExtract(near_y, 8 * k, 8),    \
-                      bitfieldExtract(near_z, 8 * k, 8)) *                                     \
-                     step +                                                                    \
-                 start;                                                                        \
-        vec3 b = vec3(bitfieldExtract(far_x, 8 * k, 8), bitfieldExtract(far_y, 8 * k, 8),      \
-                      bitfieldExtract(far_z, 8 * k, 8)) *                                      \
-                     step +                                                                    \
-                 end;                                                                          \
-        met |= max(max(a.x, a.y), max(a.z, near)) <= min(min(b.x, b.y), min(b.z, far))         \
-                   ? 1u << k                                                                   \
-                   : 0u;                                                                       \
+    // Bytes become floats by way of int, for which processors have an instruction.
+#define AG_MEET(k)                                                                           \
+    {                                                                                        \
+        vec3 a = vec3(ivec3((uvec3(near_x, near_y, near_z) >> (8 * k)) & 255u)) * step + start; \
+        vec3 b = vec3(ivec3((uvec3(far_x, far_y, far_z) >> (8 * k)) & 255u)) * step + end;      \
+        bool meets = max(max(a.x, a.y), max(a.z, near)) <= min(min(b.x, b.y), min(b.z, far)); \
+        met |= meets ? 1u << k : 0u;                                                         \
     }
     AG_MEET(0)
     AG_MEET(1)
@@ -71,6 +68,15 @@ uint met_boxes(uint near_x, uint far_x, uint near_y, uint far_y, uint near_z, ui
     AG_MEET(3)
 #undef AG_MEET
     return met;
+}
+
+// Bit s of the low eight becomes bits 3 s to 3 s + 2.
+uint tripled_bits(uint slots) {
+    uint r = slots & 255u;
+    r = (r | (r << 8u)) & 0x00f00fu;
+    r = (r | (r << 4u)) & 0x0c30c3u;
+    r = (r | (r << 2u)) & 0x249249u;
+    return r | (r << 1u) | (r << 2u);
 }
 
 // Moves bit s of the low eight to bit s ^ octant: slots in the order in which the ray meets them.
@@ -97,78 +103,66 @@ void trace_bvh(uvec2 header_address, uint first_triangle, RayQuery query, bool a
     uvec2 stack[kBvhMaxDepth];
     uint height = 0u;
     uvec2 group = uvec2(0u, 1u | (0x100u << ray.octant));  // slot 0: the root
-    // Triangles yet to test: .x is the first of the node, .y has a bit for each.
-    uvec2 leaves = uvec2(0u);
 
     while (true) {
-        if (leaves.y == 0u) {
-            if (group.y < 0x100u) {
-                if (height == 0u) break;
-                --height;
-                group = stack[height];
-            }
-            uint place = uint(findLSB(group.y >> 8u));
-            group.y &= ~(0x100u << place);
-            uint slot = place ^ ray.octant;
-            uint index = group.x + uint(bitCount(group.y & ((1u << slot) - 1u) & 0xffu));
-            if (group.y >= 0x100u) {
-                stack[height] = group;
-                ++height;
-            }
-
-            AG_COUNT_STEPS;
-            uint row = index * 5u;
-            uvec4 head = nodes.at[row];
-            uvec4 tail = nodes.at[row + 1u];
-            uvec4 planes_x = nodes.at[row + 2u];
-            uvec4 planes_y = nodes.at[row + 3u];
-            uvec4 planes_z = nodes.at[row + 4u];
-            vec3 cell = uintBitsToFloat((uvec3(head.w, head.w >> 8u, head.w >> 16u) & 255u) << 23u);
-            vec3 step = cell * ray.inverse;
-            vec3 corner = (uintBitsToFloat(head.xyz) - ray.origin) * ray.inverse;
-            vec3 start = corner - ray.margin;
-            vec3 end = corner + ray.margin;
-            float far = hit.t * ray.scale;
-            bvec3 negative = lessThan(ray.inverse, vec3(0.0f));
-            uvec4 x = negative.x ? planes_x.zwxy : planes_x;
-            uvec4 y = negative.y ? planes_y.zwxy : planes_y;
-            uvec4 z = negative.z ? planes_z.zwxy : planes_z;
-            uint met = met_boxes(x.x, x.z, y.x, y.z, z.x, z.z, step, start, end, near, far) |
-                       met_boxes(x.y, x.w, y.y, y.w, z.y, z.w, step, start, end, near, far) << 4u;
-
-            uint inner = head.w >> 24u;
-            group = uvec2(tail.x, inner | (octant_order(met & inner, ray.octant) << 8u));
-            leaves = uvec2(tail.y, 0u);
-#define AG_LEAF(word, k, s)                                                               \
-    leaves.y |= (met & (1u << s)) != 0u                                                   \
-                    ? bitfieldExtract(word, 8 * k + 5, 3) << bitfieldExtract(word, 8 * k, 5) \
-                    : 0u;
-            AG_LEAF(tail.z, 0, 0)
-            AG_LEAF(tail.z, 1, 1)
-            AG_LEAF(tail.z, 2, 2)
-            AG_LEAF(tail.z, 3, 3)
-            AG_LEAF(tail.w, 0, 4)
-            AG_LEAF(tail.w, 1, 5)
-            AG_LEAF(tail.w, 2, 6)
-            AG_LEAF(tail.w, 3, 7)
-#undef AG_LEAF
+        if (group.y < 0x100u) {
+            if (height == 0u) break;
+            --height;
+            group = stack[height];
+        }
+        uint place = uint(findLSB(group.y >> 8u));
+        group.y &= ~(0x100u << place);
+        uint slot = place ^ ray.octant;
+        uint index = group.x + uint(bitCount(group.y & ((1u << slot) - 1u) & 0xffu));
+        if (group.y >= 0x100u) {
+            stack[height] = group;
+            ++height;
         }
 
-        if (leaves.y != 0u) {
+        AG_COUNT_STEPS;
+        uint row = index * 5u;
+        uvec4 head = row_words(nodes.at[row]);
+        uvec4 tail = row_words(nodes.at[row + 1u]);
+        uvec4 planes_x = row_words(nodes.at[row + 2u]);
+        uvec4 planes_y = row_words(nodes.at[row + 3u]);
+        uvec4 planes_z = row_words(nodes.at[row + 4u]);
+        vec3 cell = uintBitsToFloat((uvec3(head.w, head.w >> 8u, head.w >> 16u) & 255u) << 23u);
+        vec3 step = cell * ray.inverse;
+        vec3 corner = (uintBitsToFloat(head.xyz) - ray.origin) * ray.inverse;
+        vec3 start = corner - ray.margin;
+        vec3 end = corner + ray.margin;
+        float far = hit.t * ray.scale;
+        bvec3 negative = lessThan(ray.inverse, vec3(0.0f));
+        uvec4 x = negative.x ? planes_x.zwxy : planes_x;
+        uvec4 y = negative.y ? planes_y.zwxy : planes_y;
+        uvec4 z = negative.z ? planes_z.zwxy : planes_z;
+        uint met = met_boxes(x.x, x.z, y.x, y.z, z.x, z.z, step, start, end, near, far) |
+                   met_boxes(x.y, x.w, y.y, y.w, z.y, z.w, step, start, end, near, far) << 4u;
+
+        uint inner = tail.z >> 24u;
+        group = uvec2(tail.x, inner | (octant_order(met & inner, ray.octant) << 8u));
+        // Triangles to test: .x is the first of the node, .y has a bit for each, .z for all that the
+        // node has.
+        uvec3 leaves = uvec3(tail.y, tail.z & tripled_bits(met), tail.z);
+
+        while (leaves.y != 0u) {
             uint k = uint(findLSB(leaves.y));
             leaves.y &= leaves.y - 1u;
             AG_COUNT_TRIANGLES;
-            uint row = (leaves.x + k) * 3u;
-            uvec4 a = triangles.at[row];
+            uint row = (leaves.x + uint(bitCount(leaves.z & ((1u << k) - 1u)))) * 3u;
+            uvec4 u = row_words(triangles.at[row]);
+            uvec4 v = row_words(triangles.at[row + 1u]);
+            uvec2 w = unpackUint2x32(triangles.at[row + 2u].x);
             Triangle triangle;
-            triangle.a = uintBitsToFloat(a.xyz);
-            triangle.b = uintBitsToFloat(triangles.at[row + 1u].xyz);
-            triangle.c = uintBitsToFloat(triangles.at[row + 2u].xyz);
+            triangle.a = uintBitsToFloat(u.xyz);
+            triangle.b = uintBitsToFloat(uvec3(u.w, v.xy));
+            triangle.c = uintBitsToFloat(uvec3(v.zw, w.x));
+            uint index = first_triangle + w.y;
             TriangleHit found = intersect_triangle(sheared, triangle, query.near, hit.t);
             if (found.hit != 0u &&
-                AG_ACCEPT_HIT(first_triangle + a.w, found.barycentrics, found.t)) {
+                AG_ACCEPT_HIT(index, found.barycentrics, found.t)) {
                 hit.t = found.t;
-                hit.triangle = first_triangle + a.w;
+                hit.triangle = index;
                 hit.barycentrics = found.barycentrics;
                 if (any) return;
             }

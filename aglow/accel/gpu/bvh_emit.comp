@@ -13,11 +13,11 @@ void emit_triangle(uint to, uint leaf) {
     Triangle corners = args.triangles.at[triangle];
     BvhTriangle copy;
     copy.a = corners.a;
-    copy.triangle = triangle;
     copy.b = corners.b;
-    copy.absent = 0u;
     copy.c = corners.c;
-    copy.pad_c = 0.0f;
+    copy.triangle = triangle;
+    copy.absent = 0u;
+    copy.unused = 0u;
     args.header.at[0].triangles.at[to] = copy;
 }
 
@@ -57,10 +57,10 @@ void main() {
     SlotNodes slots = args.slots.at[i];
 
     BvhNode node;
-    node.exponents = 0u;
     node.child_base = args.children.at[i] + 1u;
     node.triangle_base = args.leaf_sizes.at[i];
-    node.meta = uvec2(0u);
+    node.slots = 0u;
+    node.unused = 0u;
     node = gridded(node, box);
     uint child = node.child_base;
     uint triangle = 0u;
@@ -70,12 +70,12 @@ void main() {
         uint from = slot & ~kLeafSlot;
         node = with_child_box(node, s, args.binary.at[from].box);
         if (slot < kLeafSlot) {
-            node.exponents |= 1u << (24u + s);
+            node.slots |= 1u << (24u + s);
             args.parents.at[child] = index;
             ++child;
         } else {
             uint count = emit_leaf(node.triangle_base + triangle, from);
-            node.meta = with_slot_byte(node.meta, s, triangle | (((1u << count) - 1u) << 5u));
+            node.slots |= ((1u << count) - 1u) << (3u * s);
             triangle += count;
         }
     }

@@ -30,15 +30,16 @@ void refit(uint index) {
     Bounds children[8];
     Bounds box = empty_bounds();
     uint child = node.child_base;
+    uint triangle = node.triangle_base;
     for (uint s = 0u; s < 8u; ++s) {
-        uint leaf = slot_byte(node.meta, s);
+        uint leaf = leaf_triangles(node.slots, s);
         children[s] = empty_bounds();
-        if (((node.exponents >> (24u + s)) & 1u) != 0u) {
+        if (is_node_slot(node.slots, s)) {
             children[s] = boxes.at[child];
             ++child;
         } else if (leaf != 0u) {
-            children[s] = leaf_box(args.header.at[0].triangles, node.triangle_base + (leaf & 31u),
-                                   leaf >> 5u);
+            children[s] = leaf_box(args.header.at[0].triangles, triangle, leaf);
+            triangle += uint(bitCount(leaf));
         }
         box = united(box, children[s]);
     }
@@ -52,14 +53,14 @@ void refit(uint index) {
 void main() {
     uint index = global_index();
     if (index >= args.node_count) return;
-    if (args.header.at[0].nodes.at[index].exponents >> 24u != 0u) return;
+    if (args.header.at[0].nodes.at[index].slots >> 24u != 0u) return;
 
     while (true) {
         refit(index);
         uint parent = args.parents.at[index];
         if (parent == kNoNode) break;
         memoryBarrierBuffer();
-        uint children = uint(bitCount(args.header.at[0].nodes.at[parent].exponents >> 24u));
+        uint children = uint(bitCount(args.header.at[0].nodes.at[parent].slots >> 24u));
         if (atomicAdd(args.arrivals.at[parent], 1u) + 1u < children) break;
         memoryBarrierBuffer();
         index = parent;
