@@ -106,8 +106,7 @@ AG_FN CellTriangle cell_triangle(vec3 a, vec3 b, vec3 c, vec3 cells, float margi
     t.plane.y = level ? -n.y / n.z : 0.0f;
     t.plane.z = p.z - (t.plane.x * p.x + t.plane.y * p.y);
     float slope = 1.0f + abs(t.plane.x) + abs(t.plane.y);
-    t.spread = level ? margin * slope + 9.5367432e-7f * e * e * (e / abs(n.z))
-                     : cells.x + cells.y + cells.z;
+    t.spread = level ? margin * slope + 9.5367432e-7f * e * e * (e / abs(n.z)) : margin * slope + e;
     return t;
 }
 

@@ -91,6 +91,9 @@ TEST_CASE("triangles on cell boundaries, slivers and lines are in all cells they
     check_cells({{0, 0, 0}, {12, 12, 12}, {6, 6, 6.00001f}}, 12);
     check_cells({{0.5f, 0.5f, 0.5f}, {11.5f, 11.5f, 11.5f}, {3.5f, 3.5f, 3.5f}}, 12);
     check_cells({{3, 3, 0}, {3, 3, 12}, {3, 3, 6}}, 12);
+    // Collinear, of no area at all, and mostly outside of the grid.
+    check_cells({{-40, -40, -40}, {50, 50, 50}, {5, 5, 5}}, 12);
+    check_cells({{-40, -20, 3}, {60, 30, 3}, {0, 0, 3}}, 12);
     check_cells({{3, 3, 3}, {3.0001f, 3, 3}, {3, 3.0001f, 3}}, 12);
 }
 
