@@ -19,8 +19,8 @@ enum class BvhQuality : uint8_t {
 
 /// A tree of boxes, eight wide, with quantised boxes: see shared/bvh.h.
 /// Repeat  the same tree every run.
-/// Cost    O(n log n); memory about 130 bytes per triangle while it is built, shared by siblings,
-///         and 70 to 80 to keep.
+/// Cost    O(n log n); about 160 bytes per triangle while it is built, shared by siblings, and 60
+///         to keep.
 /// Source  see shared/bvh_build.h, shared/bvh_collapse.h and shared/bvh.h.
 class Bvh final : public Structure {
 public:
@@ -38,7 +38,7 @@ public:
     uint64_t header() const override { return header_.address(); }
     StructureStats stats() const override;
 
-    uint32_t depth() const { return depth_; }  ///< nodes on the longest way down, or a few less
+    uint32_t depth() const { return depth_; }  ///< nodes on the longest way from the root at most
     /// The tree, for whoever looks at it: shared::BvhNode[stats().cells], shared::BvhTriangle
     /// [stats().references].
     const vk::Buffer& nodes() const { return nodes_; }
