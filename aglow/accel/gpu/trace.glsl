@@ -10,7 +10,7 @@
 //   #define AG_KINDS k                                    which kinds may occur, a constant with
 //                                                         bit 1 << kStructure... set for each
 //   #define AG_COUNT_STEPS / AG_COUNT_TRIANGLES           statements that count work
-// Each kind brings, in accel/gpu/<kind>.glsl, with the ray in the structure's space,
+// Each kind brings, in accel/gpu/<family>/<kind>.glsl, with the ray in the structure's space,
 //   void trace_<kind>(uvec2 header, uint first_triangle, RayQuery ray, bool any, inout RayHit hit)
 // which lowers hit to the nearest accepted triangle with ray.near < t < hit.t, or returns at the
 // first one where `any` is true.
@@ -33,9 +33,9 @@
 #define AG_COUNT_TRIANGLES
 #endif
 
-#include "aglow/accel/gpu/bvh.glsl"
-#include "aglow/accel/gpu/grid.glsl"
-#include "aglow/accel/gpu/grid2.glsl"
+#include "aglow/accel/gpu/bvh/bvh.glsl"
+#include "aglow/accel/gpu/grid/grid.glsl"
+#include "aglow/accel/gpu/grid/grid2.glsl"
 
 // Whether an instance is of kind k; a constant where AG_KINDS leaves no choice.
 #define AG_IS_KIND(instance, k) \

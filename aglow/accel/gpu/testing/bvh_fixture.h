@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/accel/gpu/bvh.h"
+#include "aglow/accel/gpu/bvh/bvh.h"
 #include "aglow/accel/gpu/testing/bvh_rays.comp.h"
 #include "aglow/accel/gpu/testing/grid_reference.h"
 #include "aglow/core/random.h"

@@ -16,7 +16,7 @@ uint tests = 0u;
     if (kCounting != 0u) ++steps
 #define AG_COUNT_TRIANGLES \
     if (kCounting != 0u) ++tests
-#include "aglow/accel/gpu/bvh.glsl"
+#include "aglow/accel/gpu/bvh/bvh.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

@@ -26,8 +26,8 @@ uvec2 counts = uvec2(0u);
 #define AG_ACCEPT_HIT(triangle, barycentrics, t) true
 #define AG_COUNT_STEPS ++counts.x
 #define AG_COUNT_TRIANGLES ++counts.y
-#include "aglow/accel/gpu/grid.glsl"
-#include "aglow/accel/gpu/grid2.glsl"
+#include "aglow/accel/gpu/grid/grid.glsl"
+#include "aglow/accel/gpu/grid/grid2.glsl"
 
 void main() {
     uint i = global_index();

@@ -4,12 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
 
-#include "aglow/accel/gpu/grid_sums.glsl"
+#include "aglow/accel/gpu/grid/grid_sums.glsl"
 #include "aglow/shared/grid_build.h"
 
 layout(local_size_x = kGridGroupSize) in;
 layout(push_constant, scalar) uniform Push { GridPairsArgs args; };
-#include "aglow/accel/gpu/grid_jobs.glsl"
+#include "aglow/accel/gpu/grid/grid_jobs.glsl"
 
 void main() {
     uint i = global_index();

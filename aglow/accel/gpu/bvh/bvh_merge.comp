@@ -5,7 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
-#include "aglow/accel/gpu/bvh_build.glsl"
+#include "aglow/accel/gpu/bvh/bvh_build.glsl"
 
 layout(local_size_x = kMergeGroupSize) in;
 

@@ -4,13 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
 
-#include "aglow/accel/gpu/grid_sums.glsl"
+#include "aglow/accel/gpu/grid/grid_sums.glsl"
 #include "aglow/shared/grid_build.h"
 
 layout(local_size_x = kGridGroupSize) in;
 layout(constant_id = 0) const uint kWrite = 0u;  // 0: count
 layout(push_constant, scalar) uniform Push { GridPairsArgs args; };
-#include "aglow/accel/gpu/grid_jobs.glsl"
+#include "aglow/accel/gpu/grid/grid_jobs.glsl"
 
 uint first_cell;
 uint index;
@@ -22,7 +22,7 @@ void visit(uint cell, uint before) {
     args.values.at[begin + before] = index;
 }
 #define AG_VISIT_CELL(cell, before) visit(cell, before)
-#include "aglow/accel/gpu/grid_overlap.glsl"
+#include "aglow/accel/gpu/grid/grid_overlap.glsl"
 
 // Pairs of chunk `chunk` of the columns of job `i`.
 uint make_pairs(uint i, uint chunk) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/accel/gpu/bvh.h"
+#include "aglow/accel/gpu/bvh/bvh.h"
 
-#include "aglow/accel/gpu/bvh_builder.h"
+#include "aglow/accel/gpu/bvh/bvh_builder.h"
 #include "aglow/core/assert.h"
 #include "aglow/shared/structure.h"
 #include "aglow/vk/device.h"

@@ -2,7 +2,7 @@
 // Rays through a two-level grid: see trace.glsl.
 #ifndef AGLOW_ACCEL_GPU_GRID2_GLSL
 #define AGLOW_ACCEL_GPU_GRID2_GLSL
-#include "aglow/accel/gpu/grid.glsl"
+#include "aglow/accel/gpu/grid/grid.glsl"
 #include "aglow/shared/grid2.h"
 
 // Walks the grid in one cell of the first level from t = `enter`. Returns whether the ray needs to

@@ -2,7 +2,7 @@
 // Rays through a uniform grid: see trace.glsl.
 #ifndef AGLOW_ACCEL_GPU_GRID_GLSL
 #define AGLOW_ACCEL_GPU_GRID_GLSL
-#include "aglow/accel/gpu/grid_walk.glsl"
+#include "aglow/accel/gpu/grid/grid_walk.glsl"
 #include "aglow/shared/grid.h"
 
 // Tests the triangles of one cell. Returns whether the ray needs to go no further. t of `hit`

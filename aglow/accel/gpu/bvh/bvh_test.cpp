@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/accel/gpu/bvh.h"
+#include "aglow/accel/gpu/bvh/bvh.h"
 
 #include "aglow/accel/gpu/testing/bvh_fixture.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/accel/gpu/grid2_leaves.comp.h"
-#include "aglow/accel/gpu/grid_cells.comp.h"
-#include "aglow/accel/gpu/grid_level.h"
+#include "aglow/accel/gpu/grid/grid2_leaves.comp.h"
+#include "aglow/accel/gpu/grid/grid_cells.comp.h"
+#include "aglow/accel/gpu/grid/grid_level.h"
 #include "aglow/accel/gpu/structure.h"
 #include "aglow/shared/structure.h"
 

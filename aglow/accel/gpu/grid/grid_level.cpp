@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/accel/gpu/grid_level.h"
+#include "aglow/accel/gpu/grid/grid_level.h"
 
-#include "aglow/accel/gpu/grid_bounds.comp.h"
-#include "aglow/accel/gpu/grid_pairs.comp.h"
-#include "aglow/accel/gpu/grid_shape.comp.h"
-#include "aglow/accel/gpu/grid_skip.comp.h"
-#include "aglow/accel/gpu/grid_split.comp.h"
-#include "aglow/accel/gpu/grid_spread.comp.h"
+#include "aglow/accel/gpu/grid/grid_bounds.comp.h"
+#include "aglow/accel/gpu/grid/grid_pairs.comp.h"
+#include "aglow/accel/gpu/grid/grid_shape.comp.h"
+#include "aglow/accel/gpu/grid/grid_skip.comp.h"
+#include "aglow/accel/gpu/grid/grid_split.comp.h"
+#include "aglow/accel/gpu/grid/grid_spread.comp.h"
 
 #include <fmt/format.h>
 
