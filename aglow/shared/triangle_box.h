@@ -32,9 +32,12 @@ struct CellTriangle {
     uint filled;   // 1: it overlaps all cells of its box
 };
 
+// An edge shorter than the margin bounds nothing: where a triangle is seen edge-on, rounding
+// decides on which side of it the triangle seems to lie.
 AG_FN vec3 cell_line(float pu, float pv, float qu, float qv, float side, float margin) {
-    float u = side * (pv - qv);
-    float v = side * (qu - pu);
+    bool is_short = abs(pu - qu) + abs(pv - qv) < margin;
+    float u = is_short ? 0.0f : side * (pv - qv);
+    float v = is_short ? 0.0f : side * (qu - pu);
     vec3 line;
     line.x = u;
     line.y = v;

@@ -68,6 +68,25 @@ void check_cells(const Triangle& t, uint32_t size) {
 
 }  // namespace
 
+TEST_CASE("a triangle seen edge-on is in its cells however its corners are rounded") {
+    Pcg32 random(5);
+    const auto rounded = [&](float v) {
+        for (int ulps = static_cast<int>(random.next() % 4); ulps > 0; --ulps)
+            v = std::nextafter(v, random.next() % 2 == 0 ? 0.0f : 12.0f);
+        return v;
+    };
+    for (int i = 0; i < 600; ++i) {
+        const vec3 a = random_vector(random, 1, 11), c = random_vector(random, 1, 11);
+        Triangle t{{i % 2 == 0 ? a.x : c.x, c.y, c.z}, a, {c.x, a.y, a.z}};
+        for (vec3* p : {&t.a, &t.b, &t.c}) {
+            *p = {rounded(p->x), rounded(p->y), rounded(p->z)};
+            if (i % 3 == 1) *p = {p->y, p->z, p->x};
+            if (i % 3 == 2) *p = {p->z, p->x, p->y};
+        }
+        check_cells(t, 12);
+    }
+}
+
 TEST_CASE("a triangle is in exactly the cells it overlaps") {
     Pcg32 random(1);
     for (int i = 0; i < 600; ++i) {
