@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/accel/cpu/embree_scene.h"
 
-#include "aglow/shared/sobol.h"
+#include "aglow/shared/ray_hash.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,16 +14,15 @@ constexpr unsigned kOpaque = 0;
 constexpr unsigned kAlpha = 1;
 
 /// The same ray gets the same answer from the same triangle, in every run.
-float ray_hash(const RTCRayN* rays, unsigned count, unsigned i, uint32_t triangle) {
-    uint32_t hash = shared::hash_bits(triangle);
-    for (const float component : {RTCRayN_org_x(const_cast<RTCRayN*>(rays), count, i),
-                                  RTCRayN_org_y(const_cast<RTCRayN*>(rays), count, i),
-                                  RTCRayN_org_z(const_cast<RTCRayN*>(rays), count, i),
-                                  RTCRayN_dir_x(const_cast<RTCRayN*>(rays), count, i),
-                                  RTCRayN_dir_y(const_cast<RTCRayN*>(rays), count, i),
-                                  RTCRayN_dir_z(const_cast<RTCRayN*>(rays), count, i)})
-        hash = shared::hash_pair(hash, std::bit_cast<uint32_t>(component));
-    return shared::unit_float(hash);
+float ray_hash(const RTCRayN* packet, unsigned count, unsigned i, uint32_t triangle) {
+    auto* rays = const_cast<RTCRayN*>(packet);
+    const auto bits = [](float v) { return std::bit_cast<uint32_t>(v); };
+    return shared::ray_hash(
+        triangle,
+        {bits(RTCRayN_org_x(rays, count, i)), bits(RTCRayN_org_y(rays, count, i)),
+         bits(RTCRayN_org_z(rays, count, i))},
+        {bits(RTCRayN_dir_x(rays, count, i)), bits(RTCRayN_dir_y(rays, count, i)),
+         bits(RTCRayN_dir_z(rays, count, i))});
 }
 
 /// Calls decide(i, triangle, alpha) for each hit that is up for decision; false refuses the hit.
