@@ -169,11 +169,24 @@ AG_FN float ggx_visibility(float alpha, float n_l, float n_v) {
 // Graphics Gems IV, 1994).
 AG_FN float phong_exponent(float alpha) { return max(0.5f / (alpha * alpha) - 0.5f, 0.0f); }
 
+// base^exponent for 0 <= base <= 1. Large exponents by squaring: a device's pow() may be off by a
+// hundredth there, because it multiplies the rounding of a logarithm by the exponent.
+AG_FN float steep_power(float base, float exponent) {
+    float whole = floor(exponent);
+    float result = base > 0.0f ? pow(base, exponent - whole) : exponent > 0.0f ? 0.0f : 1.0f;
+    float square = base;
+    for (uint bits = uint(whole); bits != 0u; bits = bits >> 1u) {
+        if ((bits & 1u) != 0u) result = result * square;
+        square = square * square;
+    }
+    return result;
+}
+
 // 1/sr. Its integral over the hemisphere, weighted by n . l, is 1 at normal incidence.
 // Source: Lafortune & Willems, "Using the Modified Phong Reflectance Model for Physically Based
 // Rendering", 1994.
 AG_FN float phong_lobe(float exponent, float r_l) {
-    return (exponent + 2.0f) * 0.159154943f * pow(max(r_l, 0.0f), exponent);
+    return (exponent + 2.0f) * 0.159154943f * steep_power(clamp(r_l, 0.0f, 1.0f), exponent);
 }
 
 AG_FN vec3 mirrored(vec3 direction, vec3 n) { return direction - n * (2.0f * dot(direction, n)); }

@@ -55,14 +55,13 @@ AG_FN float wrapped_coordinate(float coordinate, uint wrap) {
     return result >= 0.0f && result <= period ? result : 0.0f;
 }
 
-// The texel for an index up to one period outside of [0, size).
+// The texel for an index up to one period outside of [0, size). Divisions would take longer than all
+// else that a look-up does.
 AG_FN int wrapped_texel(int index, int size, uint wrap) {
-    if (wrap == kWrapRepeat) return (index + size) % size;
-    if (wrap == kWrapMirrored) {
-        int in_period = (index + 2 * size) % (2 * size);
-        return in_period < size ? in_period : 2 * size - 1 - in_period;
-    }
-    return index < 0 ? 0 : index < size ? index : size - 1;
+    if (wrap == kWrapClamp) return index < 0 ? 0 : index < size ? index : size - 1;
+    int period = wrap == kWrapMirrored ? 2 * size : size;
+    int in_period = index < 0 ? index + period : index >= period ? index - period : index;
+    return in_period < size ? in_period : 2 * size - 1 - in_period;
 }
 
 // The texels of `level` around st; `blend` 0 gives one texel four times.
