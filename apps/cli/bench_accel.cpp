@@ -34,20 +34,6 @@ struct Job {
     double embree_seconds = 0;
 };
 
-Result<Scene> find_scene(const std::string& name) {
-    const auto is_known = [&](const BuiltinScene& known) {
-        const size_t family = known.name.find(':');
-        return known.name == name ||
-               (family != std::string::npos && name.starts_with(known.name.substr(0, family + 1)));
-    };
-    const auto known = builtin_scenes();
-    Result<Scene> scene =
-        std::any_of(known.begin(), known.end(), is_known) ? builtin_scene(name) : load_scene(name);
-    if (scene)
-        for (Material& material : scene->materials) material.alpha_mode = AlphaMode::opaque;
-    return scene;
-}
-
 template <class Work>
 double best_seconds(Work work) {
     double best = kInfinity;
@@ -205,7 +191,7 @@ Result<Json> measure_structure(const Gpu& gpu, const Surfaces& surfaces, Accel a
 
 Result<Json> measure_scene(const Gpu& gpu, const std::string& name, int rays, Console& console) {
     AG_CHECK(console.go_on(name));
-    AG_TRY(const Scene scene, find_scene(name));
+    AG_TRY(const Scene scene, bench_scene(name));
     const Surfaces surfaces = pose(scene, kPoseTime);
     const Stopwatch watch;
     AG_TRY(const RayScene embree, RayScene::create(scene, surfaces));
@@ -263,19 +249,10 @@ std::string text_of(const Json& report) {
     return text;
 }
 
-/// The GPU that --device names; the best there is unless it names one.
-Result<Gpu> asked_gpu(const std::string& device) {
-    if (device == "cpu")
-        return fail(Errc::bad_argument,
-                    "`aglow bench accel` measures a GPU; use --device gpu or gpu:NAME");
-    constexpr std::string_view kPrefix = "gpu:";
-    return open_gpu(device.starts_with(kPrefix) ? device.substr(kPrefix.size()) : "");
-}
-
 }  // namespace
 
 Result<BenchTable> bench_accel(const BenchOptions& options, Console& console) {
-    AG_TRY(const Gpu gpu, asked_gpu(console.options().device));
+    AG_TRY(const Gpu gpu, bench_gpu(console));
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.assign(kScenes.begin(), kScenes.end());
     Json report = {{"device", info(*gpu).name},

@@ -40,7 +40,7 @@ uint64_t whole(uvec2 words) { return uint64_t{words.y} << 32 | words.x; }
 std::vector<PassTime> pass_times(const std::vector<vk::Timing>& timings, double wall) {
     std::vector<PassTime> passes;
     for (const vk::Timing& timing : timings) {
-        const std::string& pass = timing.label.empty() ? timing.kernel : timing.label;
+        const std::string pass = timing.label.empty() ? "other" : timing.label;
         auto known = std::find_if(passes.begin(), passes.end(),
                                   [&](const PassTime& p) { return p.pass == pass; });
         if (known == passes.end()) known = passes.insert(passes.end(), {pass, 0});
@@ -166,6 +166,7 @@ Status GpuFrameRenderer::move(double time) {
 
 /// Tells shaders where all is at `time`.
 void GpuFrameRenderer::place(double time) {
+    const vk::Stream::Scope scope(stream_, "pose");
     const LightTable lights = light_table(scene_, time);
     shared::DeviceScene scene = tables_->scene(!at_rest(time));
     scene.corners = surfaces_->corners();

@@ -156,6 +156,7 @@ Status Wavefront::prepare(vk::Stream& stream, const WavefrontFrame& frame) {
         if (made.error().code != Errc::out_of_memory || most_paths_ <= kLeastPaths) return made;
         most_paths_ /= 2;
     }
+    const vk::Stream::Scope scope(stream, "camera");
     shared::FrameSettings settings = frame.settings;
     settings.offsets = offsets_.address();
     settings.image = image_.address();

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/render/frames.h"
+#include "bench.h"
+#include "machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+namespace aglow::cli {
+namespace {
+
+constexpr int kFrames = 3;            // after one that is not counted: shaders are compiled in it
+constexpr double kFirstTime = 0.5;    // s; where moving scenes have begun to move
+constexpr double kStep = 1.0 / 30;    // s between frames
+constexpr float kRoughness = 0.2f;    // of all surfaces, so that each shows a mirror image
+constexpr float kLuminousFlux = 1e5;  // lm, of the one light
+
+// Of like size and kind as those of Ivson et al., "Dynamic Ray Tracing ..." (2009): machines that
+// stand still; a skinned figure, rolling and rigid bodies, large among tiny triangles, and
+// triangles that fly apart.
+constexpr std::array kScenes = {"cad:50000", "cad:112000", "cad:470000", "walker",
+                                "marbles",   "toys",       "forest",     "scatter"};
+constexpr std::array kAccels = {Accel::grid, Accel::grid2, Accel::bvh};
+constexpr std::array kEffects = {"primary", "shadow", "reflection"};
+
+/// Without light of its own: the same rays are shot in every scene.
+Scene dark(Scene scene) {
+    for (Material& material : scene.materials) {
+        material.emission = {0, 0, 0};
+        material.roughness = kRoughness;
+        material.unlit = false;
+    }
+    for (Node& node : scene.nodes) node.light = -1;
+    scene.lights.clear();
+    scene.sky.reset();
+    return scene;
+}
+
+/// With one light below the top of the scene, so that each lit surface asks for one shadow ray.
+Scene lit(Scene scene, const Box& box) {
+    const vec3 size = box.size();
+    add_point_light(scene, box.center() + vec3{0.11f * size.x, 0.47f * size.y, 0.13f * size.z},
+                    kLuminousFlux);
+    return scene;
+}
+
+struct Stage {
+    Scene dark, lit;
+    View view;
+    size_t triangles = 0;
+    bool moving = false;
+};
+
+Result<Stage> make_stage(const std::string& name, bool moving, int side) {
+    AG_TRY(Scene scene, bench_scene(name));
+    if (!moving) scene.animations.clear();
+    const Surfaces surfaces = pose(scene, kFirstTime);
+    AG_TRY(const RayScene rays, RayScene::create(scene, surfaces));
+    AG_TRY(const View view, choose_view(scene, surfaces, rays, "auto", side, side, kFirstTime));
+    Box box;
+    for (const vec3 p : surfaces.positions) box.add(p);
+    Stage stage{dark(std::move(scene)), {}, view, surfaces.triangles.size(), moving};
+    stage.lit = lit(stage.dark, box);
+    return stage;
+}
+
+Result<bool> moves(const std::string& name) {
+    AG_TRY(const Scene scene, bench_scene(name));
+    return !scene.animations.empty();
+}
+
+using Renderer = Result<std::unique_ptr<FrameRenderer>>;
+
+/// Milliseconds of a frame, whole and by pass, and its rays; means over the frames.
+Result<Json> measure_frames(Renderer made, const Stage& stage) {
+    AG_TRY(const auto renderer, std::move(made));
+    std::vector<PassTime> passes;
+    double seconds = 0;
+    uint64_t rays = 0;
+    for (int frame = 0; frame <= kFrames; ++frame) {
+        const Stopwatch watch;
+        AG_TRY(const DrawnFrame drawn, renderer->draw(kFirstTime + frame * kStep, stage.view, {}));
+        if (frame == 0) continue;
+        seconds += watch.seconds() / kFrames;
+        rays += drawn.rays / kFrames;
+        for (const PassTime& pass : drawn.seconds) {
+            auto known = std::find_if(passes.begin(), passes.end(),
+                                      [&](const PassTime& p) { return p.pass == pass.pass; });
+            if (known == passes.end()) known = passes.insert(passes.end(), {pass.pass, 0});
+            known->seconds += pass.seconds / kFrames;
+        }
+    }
+    Json stages = Json::object();
+    for (const PassTime& pass : passes) stages[pass.pass] = pass.seconds * 1e3;
+    return Json{{"frame_ms", seconds * 1e3},
+                {"rays", rays},
+                {"mrays_per_second", static_cast<double>(rays) / seconds / 1e6},
+                {"stage_ms", stages}};
+}
+
+/// Frames with each of the effects; `make` makes what draws them.
+Result<Json> measure_effects(const Stage& stage, const auto& make) {
+    Json row;
+    for (const char* effect : kEffects) {
+        const bool mirrors = effect == kEffects[2];
+        const Scene& scene = effect == kEffects[0] ? stage.dark : stage.lit;
+        const RaysOptions options{
+            .samples = 1, .reflections = mirrors ? 1 : 0, .shading = Shading::phong};
+        AG_TRY(row[effect], measure_frames(make(Footage{scene, nullptr, options}), stage));
+    }
+    return row;
+}
+
+Result<Json> measure_stage(const Gpu& gpu, const std::string& name, const Stage& stage,
+                           Console& console) {
+    const char* motion = stage.moving ? "moving" : "still";
+    Json rows = Json::array();
+    const auto add = [&](const char* accel, const auto& make) -> Status {
+        AG_CHECK(console.go_on(fmt::format("{}, {}, {}", name, motion, accel)));
+        AG_TRY(Json measured, measure_effects(stage, make));
+        Json row = {{"accel", accel}};
+        row.update(measured);
+        rows.push_back(row);
+        return {};
+    };
+    AG_CHECK(add("embree", [](const Footage& f) { return make_cpu_frame_renderer(f); }));
+    for (const Accel accel : kAccels)
+        AG_CHECK(add(aglow::name(accel),
+                     [&](const Footage& f) { return make_gpu_frame_renderer(gpu, f, accel); }));
+    return Json{
+        {"scene", name}, {"motion", motion}, {"triangles", stage.triangles}, {"structures", rows}};
+}
+
+/// The passes of a frame in a few words: "pose 1.2, build 3.4, ...", milliseconds.
+std::string stages_of(const Json& frame) {
+    std::string text;
+    for (const auto& [pass, ms] : frame["stage_ms"].items())
+        text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", pass, ms.get<double>());
+    return text;
+}
+
+std::string text_of(const Json& report) {
+    std::string text = fmt::format(
+        "{} beside Embree 3 on {}; milliseconds of a frame of {} x {} pixels with one ray each\n",
+        report["device"].get<std::string>(), report["cpu"].get<std::string>(),
+        report["side"].get<int>(), report["side"].get<int>());
+    for (const Json& scene : report["scenes"]) {
+        text += fmt::format("\n{}, {}: {} triangles\n  {:<7} {:>9} {:>9} {:>11}\n",
+                            scene["scene"].get<std::string>(), scene["motion"].get<std::string>(),
+                            scene["triangles"].get<size_t>(), "", "primary", "+ shadow",
+                            "+ reflection  stages of the last");
+        for (const Json& row : scene["structures"]) {
+            text += fmt::format("  {:<7}", row["accel"].get<std::string>());
+            for (const char* effect : kEffects)
+                text += fmt::format(" {:>9.1f}", row[effect]["frame_ms"].get<double>());
+            text += fmt::format("     {}\n", stages_of(row[kEffects.back()]));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+Result<BenchTable> bench_rays(const BenchOptions& options, Console& console) {
+    AG_TRY(const Gpu gpu, bench_gpu(console));
+    std::vector<std::string> scenes = options.scenes;
+    if (scenes.empty()) scenes.assign(kScenes.begin(), kScenes.end());
+    Json report = {{"device", info(*gpu).name},
+                   {"driver", info(*gpu).driver},
+                   {"cpu", processor(console.options().threads)},
+                   {"side", options.side},
+                   {"scenes", Json::array()}};
+    for (const std::string& name : scenes) {
+        AG_TRY(const bool can_move, moves(name));
+        for (const bool moving : {false, true}) {
+            if (moving && !can_move) continue;
+            AG_TRY(const Stage stage, make_stage(name, moving, options.side));
+            AG_TRY(const Json measured, measure_stage(gpu, name, stage, console));
+            report["scenes"].push_back(measured);
+        }
+    }
+    return BenchTable{report, text_of(report)};
+}
+
+}  // namespace aglow::cli
