@@ -85,6 +85,40 @@ AG_FN float exact_cross(float px, float py, float qx, float qy) {
     return rounded != 0.0f ? rounded : product_error(px, qy, left) - product_error(py, qx, right);
 }
 
+// Where the ray meets the plane of a triangle whose corners are permuted and seen from its origin;
+// `interpolated` is the same from the corners' depths.
+//
+// Interpolating errs by the rounding of a needle's area over that area, which puts hits of rays
+// that start near its middle before or behind them; the plane errs by the rounding of one product,
+// if its normal comes from the two shorter edges, whose products do not cancel. Where the needle is
+// so thin that the rounding of its corners turns the plane, or the ray runs along the plane, depths
+// are the better answer: they never leave the triangle.
+AG_FN float plane_distance(ShearedRay ray, vec3 a, vec3 b, vec3 c, float interpolated) {
+    vec3 ab = b - a;
+    vec3 bc = c - b;
+    vec3 ca = a - c;
+    float ab2 = dot(ab, ab);
+    float bc2 = dot(bc, bc);
+    float ca2 = dot(ca, ca);
+    vec3 first = ab;
+    vec3 second = bc;
+    if (ab2 > bc2 && ab2 >= ca2) {
+        first = bc;
+        second = ca;
+    } else if (bc2 > ca2) {
+        first = ca;
+        second = ab;
+    }
+    vec3 normal = cross(first, second);
+    float longest = max(ab2, max(bc2, ca2));
+    float thinnest = 3.7252903e-9f * (dot(a, a) + longest);  // (2^-14 of the distance)^2
+    float squared = dot(normal, normal);
+    float across = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
+    bool along = across * across < 0.00390625f * squared;  // 2^-8: within 4 degrees or so
+    if (along || !(squared > longest * thinnest)) return interpolated;
+    return dot(normal, a) / across * ray.shear.z;
+}
+
 // Both sides of a triangle are hit; one that the ray sees edge-on, or with a corner that is not
 // finite, is not.
 AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float near, float far) {
@@ -115,7 +149,8 @@ AG_FN TriangleHit intersect_triangle(ShearedRay ray, Triangle triangle, float ne
     float determinant = u + v + w;
     if (determinant == 0.0f) return result;
     float scale = 1.0f / determinant;
-    float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * scale;
+    float depth = (u * a.z + v * b.z + w * c.z) * scale;
+    float t = plane_distance(ray, a, b, c, depth * ray.shear.z);
     if (!(t > near && t < far)) return result;
     result.hit = 1u;
     result.t = t;
