@@ -2,7 +2,10 @@
 // What takes too long for a test of how rays are traced on the GPU:
 //   trace_bench agreement [RAYS]  RAYS (a million) in each of six scenes, against Embree
 //   trace_bench leaks [RAYS]      RAYS (ten millions) inside each of four closed meshes
-//   trace_bench bodies [COUNT]    COUNT (ten thousand) rigid bodies: time to move, time to trace
+//   trace_bench bodies [COUNT]    COUNT (ten thousand) rigid bodies: time to build, time to move
+//   trace_bench rates [RAYS]      seconds to build and to trace RAYS (a quarter million) diffuse
+//                                 rays, in processor time of all threads, which other work on the
+//                                 machine changes little; what choose_accel() is made from
 // AGLOW_SCENES names the folder of scene files, AGLOW_TEST_GPU the device (llvmpipe).
 #include "aglow/accel/gpu/testing/agreement.h"
 #include "aglow/accel/gpu/testing/closed_meshes.h"
@@ -22,6 +25,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string_view>
 
 using namespace aglow;
@@ -165,6 +169,69 @@ Status bodies(const Gpu& gpu, size_t count) {
     return {};
 }
 
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+/// Processor time of the cheapest of three runs.
+template <class Work>
+Result<double> cost_of(Work work) {
+    double best = kInfinity;
+    for (int i = 0; i < 3; ++i) {
+        const double start = processor_seconds();
+        AG_CHECK(work());
+        best = std::min(best, processor_seconds() - start);
+    }
+    return best;
+}
+
+Status rates(const Gpu& gpu, size_t count) {
+    fmt::print(
+        "| scene | triangles | structure | build s/Mtri | s/Mray | steps | tests |\n"
+        "|---|---|---|---|---|---|---|\n");
+    for (const char* name : {"stress:10000", "stress:100000", "stress:1000000", "cad:10000",
+                             "cad:100000", "cad:1000000"}) {
+        const TestScene test = opaque_scene(name, *builtin_scene(name));
+        const auto rays = RaySource(test.surfaces, 1).rays(RayClass::surface, count);
+        const double mtris = static_cast<double>(test.surfaces.triangles.size()) / 1e6;
+        const double mrays = static_cast<double>(count) / 1e6;
+        const auto print = [&](const char* structure, double build, double trace,
+                               const AccelStats& stats) {
+            const auto per_ray = [&](uint64_t sum) {
+                return static_cast<double>(sum) / static_cast<double>(count);
+            };
+            fmt::print("| {} | {} | {} | {:.3f} | {:.3f} | {:.1f} | {:.1f} |\n", name,
+                       test.surfaces.triangles.size(), structure, build / mtris, trace / mrays,
+                       per_ray(stats.steps), per_ray(stats.triangle_tests));
+            std::fflush(stdout);
+        };
+        double start = processor_seconds();
+        AG_TRY(const RayScene embree, RayScene::create(test.scene, test.surfaces));
+        const double embree_build = processor_seconds() - start;
+        AG_TRY(const double embree_trace, cost_of([&]() -> Status {
+                   parallel_for(rays.size(), 1024, [&](size_t begin, size_t end) {
+                       for (size_t i = begin; i < end; ++i) {
+                           volatile bool hit = embree.intersect(rays[i]).has_value();
+                           static_cast<void>(hit);
+                       }
+                   });
+                   return {};
+               }));
+        print("embree", embree_build, embree_trace, {});
+        for (const Accel accel : kAccels) {
+            AG_TRY(GpuScene scene, GpuScene::create(gpu, test.surfaces, accel));
+            AG_TRY(const double build, cost_of([&] { return scene.rebuild(test.surfaces); }));
+            AG_TRY(const double trace, cost_of([&]() -> Status {
+                       AG_TRY(const auto hits, scene.intersect(rays));
+                       return {};
+                   }));
+            AG_TRY(const auto counted, scene.intersect(rays, Counting::on));
+            print(aglow::name(accel), build, trace, scene.stats());
+        }
+    }
+    return {};
+}
+
 Status run(std::string_view what, size_t count) {
     const char* device = std::getenv("AGLOW_TEST_GPU");
     AG_TRY(const Gpu gpu, open_gpu(device ? device : "llvmpipe"));
@@ -172,7 +239,8 @@ Status run(std::string_view what, size_t count) {
     if (what == "agreement") return agreement(gpu, or_else(1000000));
     if (what == "leaks") return leaks(gpu, or_else(10000000));
     if (what == "bodies") return bodies(gpu, or_else(10000));
-    return fail(Errc::bad_argument, "trace_bench agreement|leaks|bodies [COUNT]");
+    if (what == "rates") return rates(gpu, or_else(size_t{1} << 18));
+    return fail(Errc::bad_argument, "trace_bench agreement|leaks|bodies|rates [COUNT]");
 }
 
 }  // namespace

@@ -223,8 +223,20 @@ TEST_CASE("a device may be lost at any submit: the error says so and nothing lea
 }
 
 TEST_CASE("a structure is chosen by how many rays pay for its build") {
-    CHECK(choose_accel({.triangles = 100000, .rays_per_build = 1}) == Accel::grid);
-    CHECK(choose_accel({.triangles = 100000}) == Accel::bvh);
-    CHECK(choose_accel({.triangles = 0, .rays_per_build = 0}) != Accel::automatic);
+    for (const uint64_t triangles : {1000ull, 100000ull, 10000000ull}) {
+        CAPTURE(triangles);
+        CHECK(choose_accel({.triangles = triangles, .rays_per_build = 0}) == Accel::grid);
+        CHECK(choose_accel({.triangles = triangles}) == Accel::bvh);
+        // More rays never make a slower build the worse choice.
+        Accel last = Accel::grid;
+        for (double rays = 1; rays < 1e12; rays *= 1.5) {
+            const Accel chosen = choose_accel({triangles, rays});
+            CHECK(chosen >= last);
+            last = chosen;
+        }
+        CHECK(last == Accel::bvh);
+    }
+    CHECK(choose_accel({.triangles = 1000000, .rays_per_build = 5e5}) == Accel::grid2);
+    CHECK(choose_accel({.triangles = 0, .rays_per_build = 0}) == Accel::grid);
     CHECK(std::string(name(Accel::grid2)) == "grid2");
 }

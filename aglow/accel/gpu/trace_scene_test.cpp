@@ -300,7 +300,14 @@ TEST_CASE("structures of several kinds stand side by side") {
     if (!device) return;
     Rig rig(device);
     Source source(8);
-    World world = scattered(4, Motion::still, 4, 4);
+    World world = scattered(3, Motion::rigid, 4, 4);
+    std::vector<Triangle> heap;  // for which a tree pays
+    for (int i = 0; i < 40; ++i) {
+        const vec3 at = source.point(4);
+        for (const Triangle& t : box())
+            heap.push_back({t.a * 0.3f + at, t.b * 0.3f + at, t.c * 0.3f + at});
+    }
+    world.add(heap, Motion::still, {});
     world.add(box(), Motion::free, source.transform(4));
     world.add(box(), Motion::rigid, source.transform(4));
     TraceScene scene = rig.make(world, Accel::automatic, 1);
