@@ -2,6 +2,7 @@
 #include "frame_source.h"
 
 #include "aglow/transport/path/path.h"
+#include "devices.h"
 
 #include <fmt/format.h>
 
@@ -39,18 +40,39 @@ private:
     PathOptions options_;
 };
 
-bool is_gpu(const std::string& device) { return device.starts_with("gpu"); }
+/// The GPU to draw on; none: the CPU draws, which `auto` falls back to where a driver fails.
+Result<std::optional<Gpu>> gpu_to_use(Console& console) {
+    Result<std::optional<Gpu>> gpu = choose_device(console.options().device);
+    if (gpu || console.options().device != "auto") return gpu;
+    console.warn(to_string(gpu.error()) + "; the CPU draws");
+    return std::nullopt;
+}
 
 }  // namespace
 
 Result<std::unique_ptr<FrameRenderer>> rays_renderer(const Footage& footage, Accel accel,
                                                      Console& console) {
-    if (is_gpu(console.options().device))
-        return fail(Errc::unsupported, "this build draws on the CPU; use --device cpu");
-    if (accel != Accel::automatic)
-        return fail(Errc::bad_argument,
-                    "--accel chooses how a GPU finds hits; the CPU has one way only: leave it out");
-    return make_cpu_frame_renderer(footage, console.monitor());
+    AG_TRY(const std::optional<Gpu> gpu, gpu_to_use(console));
+    const auto on_cpu = [&console, footage] {
+        return make_cpu_frame_renderer(footage, console.monitor());
+    };
+    if (!gpu) {
+        if (accel != Accel::automatic)
+            return fail(Errc::bad_argument,
+                        fmt::format("--accel {} chooses how a GPU finds hits; the CPU has one way "
+                                    "only: leave it out, or give --device gpu",
+                                    name(accel)));
+        return on_cpu();
+    }
+    const auto warn = [&console](const Error& error) {
+        console.warn(to_string(error) + "; the CPU goes on");
+    };
+    auto renderer = make_gpu_frame_renderer(*gpu, footage, accel, console.monitor());
+    if (renderer) return make_falling_back(std::move(*renderer), on_cpu, warn);
+    const Errc code = renderer.error().code;
+    if (code != Errc::device_lost && code != Errc::out_of_memory) return renderer;
+    warn(renderer.error());
+    return on_cpu();
 }
 
 std::unique_ptr<FrameRenderer> path_renderer(const Scene& scene, int bounces, int samples,

@@ -276,6 +276,11 @@ private:
     std::vector<std::filesystem::path> outputs_;
 };
 
+/// As --device takes it.
+std::string device_name(const FrameRenderer& renderer) {
+    return renderer.device() == "cpu" ? "cpu" : "gpu:" + renderer.device();
+}
+
 Result<int> run(const Options& options, Console& console) {
     AG_CHECK(check_contradictions(options, console));
     const Stopwatch total;
@@ -288,7 +293,7 @@ Result<int> run(const Options& options, Console& console) {
     AG_CHECK(sequence.run());
 
     Json report = {{"scene", options.input.string()},
-                   {"device", source.renderer->device()},
+                   {"device", device_name(*source.renderer)},
                    {"engine", options.engine == Engine::rays ? "rays" : "path"},
                    {"size", {options.size.width, options.size.height}}};
     sequence.tell(report);

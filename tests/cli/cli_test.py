@@ -356,6 +356,20 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(still[0], still[2])
         self.assertFalse((self.dir / "f.png").exists())
 
+    def test_a_gpu_draws_the_same_picture(self):
+        gpus = [d["name"] for d in self.json_of("info")["devices"][1:] if "missing" not in d]
+        if not gpus:
+            self.skipTest("no GPU")
+        self.run_aglow("render", "lit.glb", "-o", "r.png", "--device", "gpu:no such", code=5,
+                       says="no such")
+        picture = ("--size", "48x32", "--samples", "4")
+        self.run_aglow("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
+        for accel in ("grid", "grid2"):
+            report = self.json_of("render", "lit.glb", "-o", f"{accel}.exr", *picture, "--device",
+                                  gpus[0], "--accel", accel)
+            self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
+            self.run_aglow("compare", f"{accel}.exr", "cpu.exr", "--max-rmse", "1%")
+
     def test_an_interrupted_sequence_keeps_the_finished_frames(self):
         process = subprocess.Popen(
             [AGLOW, "render", "lit.glb", "-o", "long.png", "--frames", "0:999", "--size",
