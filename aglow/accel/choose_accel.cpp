@@ -8,9 +8,8 @@
 namespace aglow {
 namespace {
 
-/// Processor seconds on Mesa's llvmpipe: `trace_bench rates` for builds and for the way that rays
-/// slow down from 10^4 to 10^6 triangles, `aglow bench accel` for the rates of diffuse rays to each
-/// other. Only the ratios matter for the choice; on another device they hold roughly.
+/// Processor seconds on Mesa's llvmpipe, as `trace_bench rates` measures them from 10^4 to 10^6
+/// triangles. Only the ratios matter for the choice; on another device they hold roughly.
 struct Cost {
     Accel accel;
     double build;   ///< s for 10^6 triangles; builds are linear in their number
@@ -18,7 +17,7 @@ struct Cost {
     double growth;  ///< ... and the power of the number of triangles with which that grows
 };
 constexpr std::array kCosts = {Cost{Accel::grid, 1.0, 11.5, 0.285},
-                               Cost{Accel::grid2, 1.9, 6.5, 0.2}, Cost{Accel::bvh, 3.8, 5.3, 0.2}};
+                               Cost{Accel::grid2, 1.9, 5.8, 0.2}, Cost{Accel::bvh, 3.9, 3.5, 0.15}};
 constexpr double kUnlimited = 1e15;  // rays; keeps sums finite
 
 }  // namespace

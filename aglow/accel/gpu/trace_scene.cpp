@@ -19,7 +19,6 @@ namespace {
 using shared::Bounds;
 using shared::Instance;
 using shared::TraceCounts;
-using shared::TraceRaysArgs;
 
 constexpr float kMostStretch = 4;      // of a rigid body from its reference
 constexpr double kWornOut = 1.5;       // cost of rays since the build that makes a refit a build
@@ -350,7 +349,7 @@ Status TraceScene::update(vk::Stream& stream, TriangleSpan triangles,
                           std::span<const mat4> transforms) {
     AG_ASSERT(state_->fits(triangles, transforms),
               "groups are runs of the triangles, and rigid ones have a transform");
-    const Status done = state_->update(stream, triangles, transforms);
+    Status done = state_->update(stream, triangles, transforms);
     state_->fresh = !done;
     return done;
 }

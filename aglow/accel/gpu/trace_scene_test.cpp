@@ -233,8 +233,10 @@ TEST_CASE("a body that vanishes into a point or grows a lot is rebuilt, and foun
     World world = scattered(6, Motion::rigid, 2, 4);
     TraceScene scene = rig.make(world, Accel::bvh);
     const auto scaled = [](float s) { return compose({1, 0, 0}, {0, 0, 0, 1}, {s, s, s}); };
-    for (const auto& [scale, built] :
+    for (const auto& step :
          {std::pair{1.0f, 6u}, {0.0f, 1u}, {1.0f, 1u}, {3.0f, 0u}, {50.0f, 1u}, {0.01f, 0u}}) {
+        const float scale = step.first;
+        const uint32_t built = step.second;
         CAPTURE(scale);
         world.transforms[2] = scaled(scale);
         rig.update(scene, world.triangles(), world.transforms);
