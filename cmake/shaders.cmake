@@ -21,7 +21,7 @@ function(aglow_shaders stage)
         file(CONFIGURE OUTPUT ${header} CONTENT "#pragma once
 #include <cstdint>
 namespace aglow::${stage}::shaders {
-inline constexpr std::uint32_t ${identifier}[] =
+inline constexpr std::uint32_t ${identifier}[] =  // NOLINT(readability-identifier-naming)
 #include \"${words}\"
 ;
 }

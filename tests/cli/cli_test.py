@@ -364,7 +364,7 @@ class CommandLine(unittest.TestCase):
                        says="no such")
         picture = ("--size", "48x32", "--samples", "4")
         self.run_aglow("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
-        for accel in ("grid", "grid2"):
+        for accel in ("grid", "grid2", "bvh"):
             report = self.json_of("render", "lit.glb", "-o", f"{accel}.exr", *picture, "--device",
                                   gpus[0], "--accel", accel)
             self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
