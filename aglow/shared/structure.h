@@ -55,9 +55,9 @@ struct TraceRaysArgs {
     uint first_group;
     uint ray_count;
     TraceScenePtr scene;
-    RayQueryPtr rays;      // [ray_count]
-    RayHitPtr hits;        // [ray_count], where nearest hits are wanted
-    uintPtr blocked;       // [ray_count] 0 or 1, where any hit will do
+    RayQueryPtr rays;       // [ray_count]
+    RayHitPtr hits;         // [ray_count], where nearest hits are wanted
+    uintPtr blocked;        // [ray_count] 0 or 1, where any hit will do
     TraceCountsPtr counts;  // [1] added to, where work is counted
 };
 

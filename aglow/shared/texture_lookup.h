@@ -55,8 +55,8 @@ AG_FN float wrapped_coordinate(float coordinate, uint wrap) {
     return result >= 0.0f && result <= period ? result : 0.0f;
 }
 
-// The texel for an index up to one period outside of [0, size). Divisions would take longer than all
-// else that a look-up does.
+// The texel for an index up to one period outside of [0, size). Divisions would take longer than
+// all else that a look-up does.
 AG_FN int wrapped_texel(int index, int size, uint wrap) {
     if (wrap == kWrapClamp) return index < 0 ? 0 : index < size ? index : size - 1;
     int period = wrap == kWrapMirrored ? 2 * size : size;

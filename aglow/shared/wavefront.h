@@ -99,7 +99,7 @@ AG_BUFFER_OF(FrameSettings);
 // Push constants of all passes.
 struct WavefrontArgs {
     uint first_group;
-    uint path_count;  // in flight: pixel_count times samples
+    uint path_count;   // in flight: pixel_count times samples
     uint alive_count;  // as many as there are alive, or more
     uint unused;
     WavefrontPtr wavefront;
