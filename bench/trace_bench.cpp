@@ -3,7 +3,7 @@
 //   trace_bench agreement [RAYS]  RAYS (a million) in each of six scenes, against Embree
 //   trace_bench leaks [RAYS]      RAYS (ten millions) inside each of four closed meshes
 //   trace_bench bodies [COUNT]    COUNT (ten thousand) rigid bodies: time to build, time to move
-//   trace_bench rates [RAYS]      seconds to build and to trace RAYS (a quarter million) diffuse
+//   trace_bench [rates [RAYS]]    seconds to build and to trace RAYS (a quarter million) diffuse
 //                                 rays, in processor time of all threads, which other work on the
 //                                 machine changes little; what choose_accel() is made from
 // AGLOW_SCENES names the folder of scene files, AGLOW_TEST_GPU the device (llvmpipe).
@@ -247,7 +247,8 @@ Status run(std::string_view what, size_t count) {
 
 int main(int argc, char** argv) {
     const long long count = argc > 2 ? std::atoll(argv[2]) : 0;
-    const Status done = run(argc > 1 ? argv[1] : "", static_cast<size_t>(std::max(0LL, count)));
+    const Status done =
+        run(argc > 1 ? argv[1] : "rates", static_cast<size_t>(std::max(0LL, count)));
     if (!done) fmt::print(stderr, "{}\n", to_string(done.error()));
     return done ? 0 : 1;
 }
