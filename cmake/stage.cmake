@@ -18,7 +18,8 @@ function(aglow_compile_options target)
     if(AGLOW_SANITIZE)
         # g++ 12 takes members that an empty std::optional never reads for uninitialised ones.
         target_compile_options(${target} PRIVATE -fsanitize=${AGLOW_SANITIZE}
-            -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+            -fno-sanitize-recover=all -fno-omit-frame-pointer
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
         target_link_options(${target} PUBLIC -fsanitize=${AGLOW_SANITIZE})
     endif()
 endfunction()
