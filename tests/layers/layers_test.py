@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "vk": BASE,
     "scene": BASE,
     "mesh": BASE | {"scene"},
-    "refine": BASE | {"mesh"},
+    "refine": BASE | {"mesh", "scene"},
     "accel": BASE | {"mesh", "refine"},
     "transport": BASE | {"scene", "mesh", "refine", "accel"},
     "encode": BASE | {"scene", "mesh", "refine", "transport"},

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/refine/pattern.h"
+
+#include "aglow/core/assert.h"
+
+namespace aglow {
+namespace {
+
+/// a / n, exact where a is 0 or n, so that corners are corners.
+float fraction(uint32_t a, uint32_t n) { return static_cast<float>(a) / static_cast<float>(n); }
+
+uint32_t checked(int segments) {
+    AG_ASSERT(segments >= 1 && segments <= kMostSegments, "segments in 1..kMostSegments");
+    return static_cast<uint32_t>(segments);
+}
+
+}  // namespace
+
+Pattern triangle_pattern(int segments) {
+    const uint32_t n = checked(segments);
+    Pattern pattern;
+    for (uint32_t row = 0; row <= n; ++row)
+        for (uint32_t i = 0; i + row <= n; ++i)
+            pattern.coordinates.push_back({fraction(i, n), fraction(row, n)});
+    uint32_t first = 0;
+    for (uint32_t row = 0; row < n; ++row) {
+        const uint32_t above = first + n - row + 1;
+        for (uint32_t i = 0; i + row < n; ++i) {
+            pattern.triangles.push_back({first + i, first + i + 1, above + i});
+            if (i + row + 1 < n)
+                pattern.triangles.push_back({first + i + 1, above + i + 1, above + i});
+        }
+        first = above;
+    }
+    return pattern;
+}
+
+Pattern quad_pattern(int segments) {
+    const uint32_t n = checked(segments);
+    Pattern pattern;
+    for (uint32_t row = 0; row <= n; ++row)
+        for (uint32_t i = 0; i <= n; ++i)
+            pattern.coordinates.push_back({fraction(i, n), fraction(row, n)});
+    for (uint32_t row = 0; row < n; ++row)
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t a = row * (n + 1) + i;
+            pattern.triangles.push_back({a, a + 1, a + n + 2});
+            pattern.triangles.push_back({a, a + n + 2, a + n + 1});
+        }
+    return pattern;
+}
+
+}  // namespace aglow
