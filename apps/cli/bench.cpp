@@ -4,9 +4,13 @@
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 #include "command.h"
+#include "devices.h"
+#include "machine.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <optional>
 
 namespace aglow::cli {
 namespace {
@@ -39,14 +43,46 @@ Table table(Options& o) {
     };
 }
 
+/// The GPU that --device names; the best of any kind unless it names one.
+Result<Gpu> gpu_to_measure(const std::string& device) {
+    AG_TRY(const std::optional<Gpu> gpu, choose_device(device == "auto" ? "gpu" : device));
+    if (!gpu)
+        return fail(Errc::bad_argument,
+                    "`aglow bench` measures a GPU beside the CPU; use --device gpu or gpu:NAME");
+    return *gpu;
+}
+
+/// The first line of a table.
+std::string head_of(const Json& report) {
+    return fmt::format("{} beside Embree 3 on {}; ", report["device"].get<std::string>(),
+                       report["cpu"].get<std::string>());
+}
+
 Result<int> run(const Options& options, Console& console) {
-    const auto measure = options.bench == Bench::accel ? bench_accel : bench_rays;
-    AG_TRY(const BenchTable measured, measure(options.settings, console));
-    console.result(console.json() ? to_text(measured.json) + "\n" : measured.text);
+    AG_TRY(const Gpu gpu, gpu_to_measure(console.options().device));
+    const BenchOptions& settings = options.settings;
+    const BenchTable measured =
+        options.bench == Bench::accel ? accel_table(settings) : rays_table(settings);
+    Json report = {{"device", info(*gpu).name},
+                   {"driver", info(*gpu).driver},
+                   {"cpu", processor(console.options().threads)}};
+    report.update(measured.settings);
+    report["scenes"] = Json::array();
+    for (const std::string& scene : settings.scenes.empty() ? measured.scenes : settings.scenes) {
+        AG_CHECK(console.go_on(scene));
+        AG_TRY(const Json rows, measured.measure(gpu, scene, settings, console));
+        report["scenes"].insert(report["scenes"].end(), rows.begin(), rows.end());
+    }
+    console.result(console.json() ? to_text(report) + "\n"
+                                  : head_of(report) + measured.text(report));
     return kExitDone;
 }
 
 }  // namespace
+
+std::vector<std::string> bench_scenes() {
+    return {"cad:50000", "cad:112000", "cad:470000", "walker", "marbles", "toys", "forest"};
+}
 
 Result<Scene> bench_scene(const std::string& name) {
     const auto is_known = [&](const BuiltinScene& known) {
@@ -60,15 +96,6 @@ Result<Scene> bench_scene(const std::string& name) {
     if (scene)
         for (Material& material : scene->materials) material.alpha_mode = AlphaMode::opaque;
     return scene;
-}
-
-Result<Gpu> bench_gpu(const Console& console) {
-    const std::string& device = console.options().device;
-    if (device == "cpu")
-        return fail(Errc::bad_argument,
-                    "`aglow bench` measures a GPU beside the CPU; use --device gpu or gpu:NAME");
-    constexpr std::string_view kPrefix = "gpu:";
-    return open_gpu(device.starts_with(kPrefix) ? device.substr(kPrefix.size()) : "");
 }
 
 Command bench_command() {

@@ -3,28 +3,18 @@
 #include "aglow/core/parallel.h"
 #include "aglow/core/random.h"
 #include "aglow/render/camera.h"
-#include "aglow/scene/builtin.h"
-#include "aglow/scene/load.h"
 #include "bench.h"
-#include "machine.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 #include <cmath>
 
 namespace aglow::cli {
 namespace {
 
-constexpr int kRepeats = 3;        // the best counts: what else runs only ever adds time
-constexpr double kPoseTime = 0.5;  // s; moving scenes are measured in motion
-
-// Of like size and kind as those of Ivson et al., "Dynamic Ray Tracing ..." (2009): three machines
-// that stand still; a skinned figure, rolling and rigid bodies, and large among tiny triangles.
-constexpr std::array kScenes = {"cad:50000", "cad:112000", "cad:470000", "walker",
-                                "marbles",   "toys",       "forest"};
-constexpr std::array kAccels = {Accel::grid, Accel::grid2, Accel::bvh};
+constexpr int kRepeats = 3;  // the best counts: what else runs only ever adds time
 
 /// Rays that do one job in a picture.
 struct Job {
@@ -113,7 +103,7 @@ std::vector<Ray> diffuse_rays(const std::vector<Start>& starts, uint64_t seed) {
 Result<std::vector<Job>> make_jobs(const Scene& scene, const Surfaces& surfaces,
                                    const RayScene& embree, int rays, uint64_t seed) {
     const int side = std::max(1, static_cast<int>(std::lround(std::sqrt(rays))));
-    AG_TRY(const View view, choose_view(scene, surfaces, embree, "auto", side, side, kPoseTime));
+    AG_TRY(const View view, choose_view(scene, surfaces, embree, "auto", side, side, kBenchTime));
     std::vector<Job> jobs;
     jobs.push_back({.name = "primary", .rays = primary_rays(view)});
     const auto starts = starts_of(surfaces, hits_of(embree, jobs[0].rays));
@@ -189,14 +179,15 @@ Result<Json> measure_structure(const Gpu& gpu, const Surfaces& surfaces, Accel a
     return row;
 }
 
-Result<Json> measure_scene(const Gpu& gpu, const std::string& name, int rays, Console& console) {
-    AG_CHECK(console.go_on(name));
+Result<Json> measure(const Gpu& gpu, const std::string& name, const BenchOptions& options,
+                     Console& console) {
     AG_TRY(const Scene scene, bench_scene(name));
-    const Surfaces surfaces = pose(scene, kPoseTime);
+    const Surfaces surfaces = pose(scene, kBenchTime);
     const Stopwatch watch;
     AG_TRY(const RayScene embree, RayScene::create(scene, surfaces));
     const double embree_build = watch.seconds();
-    AG_TRY(std::vector<Job> jobs, make_jobs(scene, surfaces, embree, rays, console.options().seed));
+    AG_TRY(std::vector<Job> jobs,
+           make_jobs(scene, surfaces, embree, options.rays, console.options().seed));
     Json reference = {{"accel", "embree"}, {"build_ms", embree_build * 1e3}};
     for (Job& job : jobs) {
         time_embree(embree, job);
@@ -205,13 +196,13 @@ Result<Json> measure_scene(const Gpu& gpu, const std::string& name, int rays, Co
                                                         job.embree_seconds}};
     }
     Json structures = Json::array({reference});
-    for (const Accel accel : kAccels) {
+    for (const Accel accel : kBenchAccels) {
         AG_CHECK(console.go_on(fmt::format("{}, {}", name, aglow::name(accel))));
         AG_TRY(const Json row, measure_structure(gpu, surfaces, accel, jobs, embree_build));
         structures.push_back(row);
     }
-    return Json{
-        {"scene", name}, {"triangles", surfaces.triangles.size()}, {"structures", structures}};
+    return Json::array({Json{
+        {"scene", name}, {"triangles", surfaces.triangles.size()}, {"structures", structures}}});
 }
 
 std::string cell(const Json& row, const char* key, const char* format) {
@@ -219,10 +210,8 @@ std::string cell(const Json& row, const char* key, const char* format) {
 }
 
 std::string text_of(const Json& report) {
-    std::string text = fmt::format(
-        "{} beside Embree 3 on {}; rates in million rays per second (x Embree's), "
-        "steps + triangle tests per ray\n",
-        report["device"].get<std::string>(), report["cpu"].get<std::string>());
+    std::string text =
+        "rates in million rays per second (x Embree's), steps + triangle tests per ray\n";
     for (const Json& scene : report["scenes"]) {
         text += fmt::format("\n{}: {} triangles\n", scene["scene"].get<std::string>(),
                             scene["triangles"].get<size_t>());
@@ -251,19 +240,8 @@ std::string text_of(const Json& report) {
 
 }  // namespace
 
-Result<BenchTable> bench_accel(const BenchOptions& options, Console& console) {
-    AG_TRY(const Gpu gpu, bench_gpu(console));
-    std::vector<std::string> scenes = options.scenes;
-    if (scenes.empty()) scenes.assign(kScenes.begin(), kScenes.end());
-    Json report = {{"device", info(*gpu).name},
-                   {"driver", info(*gpu).driver},
-                   {"cpu", processor(console.options().threads)},
-                   {"scenes", Json::array()}};
-    for (const std::string& scene : scenes) {
-        AG_TRY(const Json measured, measure_scene(gpu, scene, options.rays, console));
-        report["scenes"].push_back(measured);
-    }
-    return BenchTable{report, text_of(report)};
+BenchTable accel_table(const BenchOptions&) {
+    return {bench_scenes(), Json::object(), measure, text_of};
 }
 
 }  // namespace aglow::cli

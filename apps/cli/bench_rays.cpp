@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/render/frames.h"
 #include "bench.h"
-#include "machine.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <optional>
 
 namespace aglow::cli {
 namespace {
 
 constexpr int kFrames = 3;            // after one that is not counted: shaders are compiled in it
-constexpr double kFirstTime = 0.5;    // s; where moving scenes have begun to move
 constexpr double kStep = 1.0 / 30;    // s between frames
 constexpr float kRoughness = 0.2f;    // of all surfaces, so that each shows a mirror image
 constexpr float kLuminousFlux = 1e5;  // lm, of the one light
 
-// Of like size and kind as those of Ivson et al., "Dynamic Ray Tracing ..." (2009): machines that
-// stand still; a skinned figure, rolling and rigid bodies, large among tiny triangles, and
-// triangles that fly apart.
-constexpr std::array kScenes = {"cad:50000", "cad:112000", "cad:470000", "walker",
-                                "marbles",   "toys",       "forest",     "scatter"};
-constexpr std::array kAccels = {Accel::grid, Accel::grid2, Accel::bvh};
 constexpr std::array kEffects = {"primary", "shadow", "reflection"};
 
 /// Without light of its own: the same rays are shot in every scene.
@@ -55,22 +45,16 @@ struct Stage {
     bool moving = false;
 };
 
-Result<Stage> make_stage(const std::string& name, bool moving, int side) {
-    AG_TRY(Scene scene, bench_scene(name));
+Result<Stage> make_stage(Scene scene, bool moving, int side) {
     if (!moving) scene.animations.clear();
-    const Surfaces surfaces = pose(scene, kFirstTime);
+    const Surfaces surfaces = pose(scene, kBenchTime);
     AG_TRY(const RayScene rays, RayScene::create(scene, surfaces));
-    AG_TRY(const View view, choose_view(scene, surfaces, rays, "auto", side, side, kFirstTime));
+    AG_TRY(const View view, choose_view(scene, surfaces, rays, "auto", side, side, kBenchTime));
     Box box;
     for (const vec3 p : surfaces.positions) box.add(p);
     Stage stage{dark(std::move(scene)), {}, view, surfaces.triangles.size(), moving};
     stage.lit = lit(stage.dark, box);
     return stage;
-}
-
-Result<bool> moves(const std::string& name) {
-    AG_TRY(const Scene scene, bench_scene(name));
-    return !scene.animations.empty();
 }
 
 using Renderer = Result<std::unique_ptr<FrameRenderer>>;
@@ -83,7 +67,7 @@ Result<Json> measure_frames(Renderer made, const Stage& stage) {
     uint64_t rays = 0;
     for (int frame = 0; frame <= kFrames; ++frame) {
         const Stopwatch watch;
-        AG_TRY(const DrawnFrame drawn, renderer->draw(kFirstTime + frame * kStep, stage.view, {}));
+        AG_TRY(const DrawnFrame drawn, renderer->draw(kBenchTime + frame * kStep, stage.view, {}));
         if (frame == 0) continue;
         seconds += watch.seconds() / kFrames;
         rays += drawn.rays / kFrames;
@@ -128,11 +112,25 @@ Result<Json> measure_stage(const Gpu& gpu, const std::string& name, const Stage&
         return {};
     };
     AG_CHECK(add("embree", [](const Footage& f) { return make_cpu_frame_renderer(f); }));
-    for (const Accel accel : kAccels)
+    for (const Accel accel : kBenchAccels)
         AG_CHECK(add(aglow::name(accel),
                      [&](const Footage& f) { return make_gpu_frame_renderer(gpu, f, accel); }));
     return Json{
         {"scene", name}, {"motion", motion}, {"triangles", stage.triangles}, {"structures", rows}};
+}
+
+/// Standing still, and in motion where it moves.
+Result<Json> measure(const Gpu& gpu, const std::string& name, const BenchOptions& options,
+                     Console& console) {
+    AG_TRY(const Scene scene, bench_scene(name));
+    Json measured = Json::array();
+    for (const bool moving : {false, true}) {
+        if (moving && scene.animations.empty()) continue;
+        AG_TRY(const Stage stage, make_stage(scene, moving, options.side));
+        AG_TRY(Json row, measure_stage(gpu, name, stage, console));
+        measured.push_back(row);
+    }
+    return measured;
 }
 
 /// The passes of a frame in a few words: "pose 1.2, build 3.4, ...", milliseconds.
@@ -144,10 +142,9 @@ std::string stages_of(const Json& frame) {
 }
 
 std::string text_of(const Json& report) {
-    std::string text = fmt::format(
-        "{} beside Embree 3 on {}; milliseconds of a frame of {} x {} pixels with one ray each\n",
-        report["device"].get<std::string>(), report["cpu"].get<std::string>(),
-        report["side"].get<int>(), report["side"].get<int>());
+    const int side = report["side"].get<int>();
+    std::string text =
+        fmt::format("milliseconds of a frame of {} x {} pixels with one ray each\n", side, side);
     for (const Json& scene : report["scenes"]) {
         text += fmt::format("\n{}, {}: {} triangles\n  {:<7} {:>9} {:>9} {:>11}\n",
                             scene["scene"].get<std::string>(), scene["motion"].get<std::string>(),
@@ -165,25 +162,10 @@ std::string text_of(const Json& report) {
 
 }  // namespace
 
-Result<BenchTable> bench_rays(const BenchOptions& options, Console& console) {
-    AG_TRY(const Gpu gpu, bench_gpu(console));
-    std::vector<std::string> scenes = options.scenes;
-    if (scenes.empty()) scenes.assign(kScenes.begin(), kScenes.end());
-    Json report = {{"device", info(*gpu).name},
-                   {"driver", info(*gpu).driver},
-                   {"cpu", processor(console.options().threads)},
-                   {"side", options.side},
-                   {"scenes", Json::array()}};
-    for (const std::string& name : scenes) {
-        AG_TRY(const bool can_move, moves(name));
-        for (const bool moving : {false, true}) {
-            if (moving && !can_move) continue;
-            AG_TRY(const Stage stage, make_stage(name, moving, options.side));
-            AG_TRY(const Json measured, measure_stage(gpu, name, stage, console));
-            report["scenes"].push_back(measured);
-        }
-    }
-    return BenchTable{report, text_of(report)};
+BenchTable rays_table(const BenchOptions& options) {
+    std::vector<std::string> scenes = bench_scenes();
+    scenes.emplace_back("scatter");  // whose triangles fly apart as time goes on
+    return {scenes, {{"side", options.side}}, measure, text_of};
 }
 
 }  // namespace aglow::cli
