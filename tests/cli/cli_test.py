@@ -1,101 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The command line, used as people use it: every command, every exit code, whole files only.
-
-    cli_test.py AGLOW [-k TEXT]    -k: only tests whose name contains TEXT
-"""
-import csv
+"""The command line, used as people use it: every command, every exit code, whole files only."""
 import json
-import math
-import os
-import pathlib
 import resource
 import signal
-import struct
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
-AGLOW = os.path.abspath(sys.argv[1])
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-FAST = ["--resolution", "64", "--quality", "draft"]
+import harness
+from harness import AGLOW, FAST, ROOT, aglow, ground_plane
 
 
-def aglow(*arguments, cwd, limit=None):
-    """Runs `aglow` in a folder; `limit` is called in the child before it starts."""
-    return subprocess.run([AGLOW, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
-                          timeout=300, preexec_fn=limit)
-
-
-def ground_plane(path, extensions_required=()):
-    """A glTF of one horizontal square, 20 m wide, at height 0, facing up."""
-    corners = [(-10, 0, -10), (-10, 0, 10), (10, 0, 10), (10, 0, -10)]
-    data = b"".join(struct.pack("<3f", *c) for c in corners)
-    data += struct.pack("<6H", 0, 1, 2, 0, 2, 3)
-    document = {
-        "asset": {"version": "2.0"},
-        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1],
-                                                "metallicFactor": 0}}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
-             "min": [-10, 0, -10], "max": [10, 0, 10]},
-            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
-        "bufferViews": [{"buffer": 0, "byteLength": 48},
-                        {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
-        "buffers": [{"byteLength": len(data), "uri": path.stem + ".bin"}],
-    }
-    if extensions_required:
-        document["extensionsRequired"] = document["extensionsUsed"] = list(extensions_required)
-    path.with_suffix(".bin").write_bytes(data)
-    path.write_text(json.dumps(document))
-
-
-class CommandLine(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.dir = pathlib.Path(cls.temporary.name)
-        for scene in ("cornell-box", "cube-tc58"):
-            done = aglow("scene", scene, "-o", f"{scene}.glb", cwd=cls.dir)
-            assert done.returncode == 0, done.stderr
-        done = aglow("bake", "cornell-box.glb", "-o", "lit.glb", *FAST, "--json", cwd=cls.dir)
-        assert done.returncode == 0, done.stderr
-        cls.baked = json.loads(done.stdout)
-        ground_plane(cls.dir / "plane.gltf")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
-    def run_aglow(self, *arguments, code=0, says="", limit=None):
-        done = aglow(*arguments, cwd=self.dir, limit=limit)
-        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
-        if code not in (0, 7):
-            self.assertEqual(done.stdout, "", "stdout carries results only")
-            self.assertTrue(done.stderr.startswith("aglow"), done.stderr)
-        self.assertIn(says, done.stderr)
-        return done
-
-    def json_of(self, *arguments, code=0):
-        done = self.run_aglow(*arguments, "--json", "--quiet", code=code)
-        self.assertEqual(done.stderr, "")
-        return json.loads(done.stdout)
-
-    def measured(self, *arguments, points):
-        """Rows of `measure` at sensors (x, y, z, nx, ny, nz), as dictionaries of numbers."""
-        lines = [",".join(map(str, point)) for point in points]
-        (self.dir / "points.csv").write_text("x,y,z,nx,ny,nz\n" + "\n".join(lines) + "\n")
-        self.run_aglow("measure", *arguments, "--points", "points.csv", "-o", "measured.csv")
-        with open(self.dir / "measured.csv", newline="") as file:
-            return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
-
-    def folder_names(self):
-        return sorted(p.name for p in self.dir.iterdir())
-
+class CommandLine(harness.AglowTest):
     # --- what the program says of itself ---------------------------------------------------------
 
     def test_every_command_explains_itself(self):
@@ -323,78 +240,6 @@ class CommandLine(unittest.TestCase):
         self.assertTrue(validated["passed"])
         self.assertGreater(len(validated["cases"]), 0)
 
-    def test_structures_are_measured_beside_embree(self):
-        arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
-                     "--rays", "256", "--device", "gpu:llvmpipe")
-        if aglow(*arguments, cwd=self.dir).returncode == 5:
-            self.skipTest("there is no Vulkan driver")
-        report = self.json_of(*arguments)
-        self.assertIn("llvmpipe", report["device"])
-        self.assertEqual([s["scene"] for s in report["scenes"]], ["cornell-box", "plane.gltf"])
-        for scene in report["scenes"]:
-            embree, *structures = scene["structures"]
-            self.assertEqual([s["accel"] for s in structures], ["grid", "grid2", "bvh"])
-            for structure in structures:
-                self.assertGreater(structure["build_ms"], 0)
-                self.assertGreaterEqual(structure["references_per_triangle"], 1)
-                for rays in ("primary", "shadow", "diffuse"):
-                    self.assertEqual(structure[rays]["rays"], embree[rays]["rays"])
-                    self.assertGreater(structure[rays]["ratio_to_embree"], 0)
-        text = self.run_aglow(*arguments).stdout
-        for word in ("cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
-            self.assertIn(word, text)
-
-    def test_frames_are_numbered_files_of_one_exposure(self):
-        report = self.json_of("render", "lit.glb", "-o", "f.png", "--size", "32x24", "--frames",
-                              "2:4", "--fps", "10", "--device", "cpu")
-        self.assertEqual(report["outputs"], ["f-0002.png", "f-0003.png", "f-0004.png"])
-        self.assertEqual((report["frames"], report["device"]), (3, "cpu"))
-        self.assertEqual([p["pass"] for p in report["passes"]], ["pose", "build", "trace"])
-        self.assertGreaterEqual(report["rays"], 3 * 32 * 24 * 16)
-        still = [(self.dir / name).read_bytes() for name in report["outputs"]]
-        self.assertEqual(still[0], still[1])
-        self.assertEqual(still[0], still[2])
-        self.assertFalse((self.dir / "f.png").exists())
-
-    def test_a_gpu_draws_the_same_picture(self):
-        gpus = [d["name"] for d in self.json_of("info")["devices"][1:] if "missing" not in d]
-        if not gpus:
-            self.skipTest("no GPU")
-        self.run_aglow("render", "lit.glb", "-o", "r.png", "--device", "gpu:no such", code=5,
-                       says="no such")
-        picture = ("--size", "48x32", "--samples", "4")
-        self.run_aglow("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
-        for accel in ("grid", "grid2", "bvh"):
-            report = self.json_of("render", "lit.glb", "-o", f"{accel}.exr", *picture, "--device",
-                                  gpus[0], "--accel", accel)
-            self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
-            self.run_aglow("compare", f"{accel}.exr", "cpu.exr", "--max-rmse", "1%")
-
-    def test_an_interrupted_sequence_keeps_the_finished_frames(self):
-        process = subprocess.Popen(
-            [AGLOW, "render", "lit.glb", "-o", "long.png", "--frames", "0:999", "--size",
-             "160x120"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        deadline = time.monotonic() + 60
-        while not (self.dir / "long-0001.png").exists() and time.monotonic() < deadline:
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130)
-        frames = sorted(self.dir.glob("long*"))
-        self.assertGreaterEqual(len(frames), 2)
-        self.assertEqual([f.name for f in frames],
-                         [f"long-{i:04}.png" for i in range(len(frames))])
-        for frame in frames:
-            self.assertEqual(frame.read_bytes()[-12:], frames[0].read_bytes()[-12:])  # IEND
-
-    def test_light_is_computed_on_the_spot_where_none_is_baked(self):
-        sun = ("--size", "16x16", "--sun", "0,60,1000", "--samples", "64")
-        self.run_aglow("render", "plane.gltf", "-o", "sun.exr", *sun, "--reflections", "0")
-        self.run_aglow("render", "plane.gltf", "-o", "path.exr", *sun, "--engine", "path")
-        self.run_aglow("compare", "sun.exr", "path.exr", "--max-rmse", "5")
-        dark = self.run_aglow("render", "plane.gltf", "-o", "dark.exr", "--size", "16x16")
-        self.assertIn("nothing in the scene shines", dark.stderr)
-
     def test_text_says_what_json_says(self):
         text = self.run_aglow("info", "plane.gltf").stdout
         self.assertRegex(text, r"(?m)^triangles +2$")
@@ -419,89 +264,6 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual((self.dir / "t1" / name).read_bytes(),
                                  (self.dir / other / name).read_bytes(), f"{other}/{name}")
 
-    def test_a_point_light_gives_intensity_over_distance_squared(self):
-        floor = (0, -1.999999, 0, 0, 2, 0)  # in the cube's frame, its centre at the origin or not
-        info = self.json_of("info", "cube-tc58.glb")
-        low, high = info["bounds"]["low"], info["bounds"]["high"]
-        centre = [(a + b) / 2 for a, b in zip(low, high)]
-        at = [centre[0], centre[1] - 1, centre[2]]
-        row, = self.measured("cube-tc58.glb", "--bounces", "0", *FAST, points=[(*at, *floor[3:])])
-        self.assertAlmostEqual(row["E"], 10000 / (4 * math.pi), delta=0.5)  # 1 m below 10 klm
-        self.assertEqual(row["indirect"], 0)
-        self.assertEqual(row["ny"], 1)
-
-    def test_sky_sun_and_lights_mean_what_the_options_say(self):
-        up, north, east = (0, 1, 0, 0, 1, 0), (0, 1, 0, 0, 0, -1), (0, 1, 0, 1, 0, 0)
-        exact = ("plane.gltf", "--bounces", "0", "--samples", "1024", "--resolution", "16")
-        sky, = self.measured(*exact, "--sky", "100", points=[up])
-        self.assertAlmostEqual(sky["E"], math.pi * 100, delta=0.5)
-        sun = self.measured(*exact, "--sun", "0,30,1000", points=[up, north, east])
-        for row, expected in zip(sun, (500, 1000 * math.cos(math.radians(30)), 0)):
-            self.assertAlmostEqual(row["direct"], expected, delta=0.5)
-        sun = self.measured(*exact, "--sun", "90,0,1000", points=[up, north, east])
-        for row, expected in zip(sun, (0, 0, 1000)):
-            self.assertAlmostEqual(row["direct"], expected, delta=0.5)
-        lamp = "0,2,0,1256.637"  # 100 cd, 1 m above the sensor
-        lights, = self.measured(*exact, "--light", lamp, "--light", "-1e0,2,0,0", points=[up])
-        self.assertAlmostEqual(lights["E"], 100, delta=0.1)
-        self.assertAlmostEqual(lights["E"], 0.2126 * lights["Er"] + 0.7152 * lights["Eg"] +
-                               0.0722 * lights["Eb"], delta=1e-3)
-        grey, = self.measured("plane.gltf", "--sky", "100", "--clay", "0.2", "--samples", "1024",
-                              "--resolution", "16", points=[(0, 0.001, 0, 0, -1, 0)])
-        self.assertAlmostEqual(grey["E"], 0.2 * math.pi * 100, delta=1)  # the lit ground, from above
-
-    def test_luminaires_shine_by_their_ies_file_wherever_the_scene_goes(self):
-        folder = self.dir / "luminaires"
-        folder.mkdir()
-        (folder / "lamp.ies").write_text(  # 100 cd straight down, 50 cd from 60 degrees on
-            "IESNA:LM-63-2002\n[LUMINAIRE] lamp\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 0\n"
-            "0 60 90\n0\n100 50 50\n")
-        points = [(0, 0.0001, 0, 0, 1, 0), (2 * math.sqrt(3), 0.0001, 0, 0, 1, 0)]
-        expected = [100 / 4, 50 / 16 * 0.5]
-
-        def check(scene, *words):
-            rows = self.measured(scene, *words, "--bounces", "0", *FAST, points=points)
-            for row, value in zip(rows, expected):
-                self.assertAlmostEqual(row["E"], value, delta=0.01)
-
-        check("plane.gltf", "--light", "0,2,0,luminaires/lamp.ies")
-        ground_plane(folder / "lit.gltf")
-        document = json.loads((folder / "lit.gltf").read_text())
-        document["extensionsUsed"] = document["extensionsRequired"] = ["EXT_lights_ies"]
-        document["extensions"] = {"EXT_lights_ies": {"lights": [{"uri": "lamp.ies"}]}}
-        half = math.sqrt(0.5)
-        document["nodes"].append({"translation": [0, 2, 0], "rotation": [-half, 0, 0, half],
-                                  "extensions": {"EXT_lights_ies": {"light": 0}}})
-        document["scenes"][0]["nodes"].append(1)
-        (folder / "lit.gltf").write_text(json.dumps(document))
-        check("luminaires/lit.gltf")
-        for out in ("moved.glb", "moved.gltf"):
-            self.run_aglow("bake", "luminaires/lit.gltf", "-o", out, *FAST)
-            self.assertEqual(self.json_of("info", out)["lights"]["photometric"], 1)
-            check(out)
-        (folder / "broken.ies").write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 two")
-        for name, code, says in (("broken.ies", 3, "number of vertical angles"),
-                                 ("missing.ies", 2, "missing.ies")):
-            self.run_aglow("measure", "plane.gltf", "-o", "no.csv", "--grid", "5", "--light",
-                           f"0,2,0,luminaires/{name}", code=code, says=says)
-        self.assertFalse((self.dir / "no.csv").exists())
-
-    def test_measure_reads_what_spreadsheets_write(self):
-        (self.dir / "odd.csv").write_bytes(
-            b"\xef\xbb\xbfX, Y, Z, NX, NY, NZ\r\n\r\n# desk\r\n 0 , 1 ,0, 0, 3, 0 \r\n")
-        self.run_aglow("measure", "plane.gltf", "-o", "odd_out.csv", "--points", "odd.csv", "--sky",
-                       "1", *FAST)
-        lines = (self.dir / "odd_out.csv").read_text().splitlines()
-        self.assertEqual(lines[0], "x,y,z,nx,ny,nz,Er,Eg,Eb,E,direct,indirect")
-        self.assertEqual(lines[1].split(",")[:6], ["0", "1", "0", "0", "1", "0"])
-
-    def test_a_grid_covers_upward_faces_and_draws_a_plan(self):
-        report = self.json_of("measure", "plane.gltf", "-o", "g.csv", "--grid", "1", "--sky", "10",
-                              "--image", "g.png", *FAST)
-        self.assertAlmostEqual(report["sensors"], 400, delta=41)
-        self.assertAlmostEqual(report["mean_irradiance_lux"], math.pi * 10, delta=0.2)
-        self.assertEqual((self.dir / "g.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    harness.main()

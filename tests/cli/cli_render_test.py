@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures: what `aglow render` draws, on the CPU and on a GPU, and what `aglow bench` measures."""
+import signal
+import subprocess
+import time
+
+import harness
+from harness import AGLOW, aglow
+
+
+class Pictures(harness.AglowTest):
+    def test_frames_are_numbered_files_of_one_exposure(self):
+        report = self.json_of("render", "lit.glb", "-o", "f.png", "--size", "32x24", "--frames",
+                              "2:4", "--fps", "10", "--device", "cpu")
+        self.assertEqual(report["outputs"], ["f-0002.png", "f-0003.png", "f-0004.png"])
+        self.assertEqual((report["frames"], report["device"]), (3, "cpu"))
+        self.assertEqual([p["pass"] for p in report["passes"]], ["pose", "build", "trace"])
+        self.assertGreaterEqual(report["rays"], 3 * 32 * 24 * 16)
+        still = [(self.dir / name).read_bytes() for name in report["outputs"]]
+        self.assertEqual(still[0], still[1])
+        self.assertEqual(still[0], still[2])
+        self.assertFalse((self.dir / "f.png").exists())
+
+    def test_an_interrupted_sequence_keeps_the_finished_frames(self):
+        process = subprocess.Popen(
+            [AGLOW, "render", "lit.glb", "-o", "long.png", "--frames", "0:999", "--size",
+             "160x120"], cwd=self.dir, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        while not (self.dir / "long-0001.png").exists() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        frames = sorted(self.dir.glob("long*"))
+        self.assertGreaterEqual(len(frames), 2)
+        self.assertEqual([f.name for f in frames],
+                         [f"long-{i:04}.png" for i in range(len(frames))])
+        for frame in frames:
+            self.assertEqual(frame.read_bytes()[-12:], frames[0].read_bytes()[-12:])  # IEND
+
+    def test_light_is_computed_on_the_spot_where_none_is_baked(self):
+        sun = ("--size", "16x16", "--sun", "0,60,1000", "--samples", "64")
+        self.run_aglow("render", "plane.gltf", "-o", "sun.exr", *sun, "--reflections", "0")
+        self.run_aglow("render", "plane.gltf", "-o", "path.exr", *sun, "--engine", "path")
+        self.run_aglow("compare", "sun.exr", "path.exr", "--max-rmse", "5")
+        dark = self.run_aglow("render", "plane.gltf", "-o", "dark.exr", "--size", "16x16")
+        self.assertIn("nothing in the scene shines", dark.stderr)
+
+    def test_a_gpu_draws_the_same_picture(self):
+        gpus = self.gpus()
+        if not gpus:
+            self.skipTest("no GPU")
+        self.run_aglow("render", "lit.glb", "-o", "r.png", "--device", "gpu:no such", code=5,
+                       says="no such")
+        picture = ("--size", "48x32", "--samples", "4")
+        self.run_aglow("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
+        for accel in ("grid", "grid2", "bvh"):
+            report = self.json_of("render", "lit.glb", "-o", f"{accel}.exr", *picture, "--device",
+                                  gpus[0], "--accel", accel)
+            self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
+            self.run_aglow("compare", f"{accel}.exr", "cpu.exr", "--max-rmse", "1%")
+
+    def test_structures_are_measured_beside_embree(self):
+        arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
+                     "--rays", "256", "--device", "gpu:llvmpipe")
+        if aglow(*arguments, cwd=self.dir).returncode == 5:
+            self.skipTest("there is no Vulkan driver")
+        report = self.json_of(*arguments)
+        self.assertIn("llvmpipe", report["device"])
+        self.assertEqual([s["scene"] for s in report["scenes"]], ["cornell-box", "plane.gltf"])
+        for scene in report["scenes"]:
+            embree, *structures = scene["structures"]
+            self.assertEqual([s["accel"] for s in structures], ["grid", "grid2", "bvh"])
+            for structure in structures:
+                self.assertGreater(structure["build_ms"], 0)
+                self.assertGreaterEqual(structure["references_per_triangle"], 1)
+                for rays in ("primary", "shadow", "diffuse"):
+                    self.assertEqual(structure[rays]["rays"], embree[rays]["rays"])
+                    self.assertGreater(structure[rays]["ratio_to_embree"], 0)
+        text = self.run_aglow(*arguments).stdout
+        for word in ("cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
+            self.assertIn(word, text)
+
+
+if __name__ == "__main__":
+    harness.main()
