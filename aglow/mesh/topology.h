@@ -77,7 +77,8 @@ struct Repairs {
     uint32_t dropped_faces = 0;   ///< fewer than three different corners
     uint32_t cut_edges = 0;       ///< more than two faces, or faces that disagree about the front
     uint32_t split_vertices = 0;  ///< several fans met in one point: each has one of its own
-    bool none() const { return dropped_faces + cut_edges + split_vertices == 0; }
+    uint32_t stray_creases = 0;   ///< creases that run along no edge, left out
+    bool none() const { return dropped_faces + cut_edges + split_vertices + stray_creases == 0; }
 };
 
 struct TopologyResult {
@@ -86,8 +87,11 @@ struct TopologyResult {
 };
 
 /// Finds the neighbours of all faces. The first vertices are those of `polygons`, in their order;
-/// those that splitting adds come after them. A repeated corner is left out of its face.
-/// Errors  bad_argument  a corner or a crease names no vertex (which), more than 2^31 corners
+/// those that splitting adds come after them. A repeated corner is left out of its face. Of two
+/// creases along one edge the sharper counts.
+/// Shapes  at most 2^31 corners
+/// Errors  bad_argument   a corner or a crease names no vertex (which), a sharpness below 0 or NaN
+///         out_of_memory
 /// Cost    O(n): edges are found by sorting keys.
 /// Repeat  a function of its arguments alone.
 Result<TopologyResult> build_topology(const PolygonList& polygons,
