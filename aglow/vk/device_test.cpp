@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/vk/device.h"
 
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>
@@ -60,13 +61,11 @@ TEST_CASE("a device opens by part of its name in any case") {
     std::string part = gpus[0].name.substr(1);
     std::transform(part.begin(), part.end(), part.begin(),
                    [](char c) { return static_cast<char>(std::toupper(c)); });
-    auto gpu = open_gpu(part);
-    REQUIRE_MESSAGE(gpu, gpu.error().message);
-    CHECK(info(**gpu).name == gpus[0].name);
+    const Gpu gpu = demand(open_gpu(part));
+    CHECK(info(*gpu).name == gpus[0].name);
 
-    auto best = open_gpu();
-    REQUIRE_MESSAGE(best, best.error().message);
-    CHECK(info(**best).name == gpus[0].name);
+    const Gpu best = demand(open_gpu());
+    CHECK(info(*best).name == gpus[0].name);
 
     auto none = open_gpu("no such GPU");
     REQUIRE_FALSE(none);
@@ -121,13 +120,12 @@ TEST_CASE("validation hears of work that lacks a barrier") {
     options.validate = true;
     auto gpu = Device::open(options);
     if (!gpu) return;
-    auto stream = Stream::create(*gpu);
-    REQUIRE(stream);
-    auto a = stream->make_buffer(64, "a"), b = stream->make_buffer(64, "b");
-    REQUIRE((a && b));
-    stream->fill(*a, 1, 0, 64);
-    stream->copy(*a, 0, *b, 0, 64);
-    CHECK(stream->finish());
+    Stream stream = demand(Stream::create(*gpu));
+    const Buffer a = demand(stream.make_buffer(64, "a"));
+    const Buffer b = demand(stream.make_buffer(64, "b"));
+    stream.fill(a, 1, 0, 64);
+    stream.copy(a, 0, b, 0, 64);
+    CHECK(stream.finish());
     std::vector<std::string> messages = (*gpu)->messages();
     REQUIRE(messages.size() == 1);
     CHECK_MESSAGE(contains(messages[0], "SYNC-HAZARD-READ-AFTER-WRITE"), messages[0]);
@@ -140,12 +138,11 @@ TEST_CASE("buffers have their size, an aligned address and a count of bytes") {
     std::vector<Buffer> buffers;
     for (uint64_t bytes : {0ull, 1ull, 4ull, 257ull, 100000ull, 20ull << 20, 40ull << 20}) {
         for (Memory memory : {Memory::device, Memory::upload, Memory::readback}) {
-            auto buffer = device->make_buffer(bytes, "b", memory);
-            REQUIRE_MESSAGE(buffer, buffer.error().message);
-            CHECK(buffer->size() == std::max<uint64_t>(bytes, 4));
-            CHECK(buffer->address() % 256 == 0);
-            CHECK((buffer->mapped() == nullptr) == (memory == Memory::device));
-            buffers.push_back(std::move(*buffer));
+            Buffer buffer = demand(device->make_buffer(bytes, "b", memory));
+            CHECK(buffer.size() == std::max<uint64_t>(bytes, 4));
+            CHECK(buffer.address() % 256 == 0);
+            CHECK((buffer.mapped() == nullptr) == (memory == Memory::device));
+            buffers.push_back(std::move(buffer));
         }
     }
     CHECK(device->bytes_in_use() >= 3ull * (60 << 20));
@@ -172,17 +169,14 @@ TEST_CASE("a buffer that dies while the device works on it dies after that") {
     TestDevice device;
     if (!device) return;
     Stream stream = device.stream();
-    auto kept = stream.make_buffer(32 << 20, "kept");
-    REQUIRE(kept);
+    const Buffer kept = demand(stream.make_buffer(32 << 20, "kept"));
     {
-        auto brief = stream.make_buffer(32 << 20, "brief");
-        REQUIRE(brief);
-        stream.fill(*brief, 5, 0, 32 << 20);
+        const Buffer brief = demand(stream.make_buffer(32 << 20, "brief"));
+        stream.fill(brief, 5, 0, 32 << 20);
         stream.barrier();
-        stream.copy(*brief, 0, *kept, 0, 32 << 20);
+        stream.copy(brief, 0, kept, 0, 32 << 20);
         stream.submit();
     }
-    auto last = stream.download<uint32_t>(*kept, 1, (8 << 20) - 1);
-    REQUIRE(last);
-    CHECK(last->front() == 5);
+    const auto last = demand(stream.download<uint32_t>(kept, 1, (8 << 20) - 1));
+    CHECK(last.front() == 5);
 }

@@ -17,14 +17,12 @@ TEST_CASE("constants reach the shader") {
     Stream stream = device.stream();
     Kernel shift = shift_kernel(device.gpu(), 1000);
     std::vector<uint32_t> data = numbers(0, 100);
-    auto from = make_buffer_of(stream, std::span<const uint32_t>(data), "from");
-    auto to = stream.make_buffer(400, "to");
-    REQUIRE((from && to));
+    const Buffer from = demand(make_buffer_of(stream, std::span<const uint32_t>(data), "from"));
+    const Buffer to = demand(stream.make_buffer(400, "to"));
     stream.barrier();
-    stream.run(shift, ShiftArgs{0, 100, from->address(), to->address()}, 2);
-    auto values = stream.download<uint32_t>(*to, 100);
-    REQUIRE(values);
-    CHECK(*values == numbers(1000, 100));
+    stream.run(shift, ShiftArgs{0, 100, from.address(), to.address()}, 2);
+    const auto values = demand(stream.download<uint32_t>(to, 100));
+    CHECK(values == numbers(1000, 100));
 }
 
 TEST_CASE("words that are no SPIR-V are an error that names the kernel") {
@@ -56,14 +54,12 @@ TEST_CASE("a kernel that dies while it runs dies after that") {
     TestDevice device;
     if (!device) return;
     Stream stream = device.stream();
-    auto buffer = stream.make_buffer(16 * 64 * 4, "values");
-    REQUIRE(buffer);
+    const Buffer buffer = demand(stream.make_buffer(16 * 64 * 4, "values"));
     {
         Kernel iota = iota_kernel(device.gpu());
-        stream.run(iota, IotaArgs{0, 16 * 64, buffer->address(), 1}, 16);
+        stream.run(iota, IotaArgs{0, 16 * 64, buffer.address(), 1}, 16);
         stream.submit();
     }
-    auto values = stream.download<uint32_t>(*buffer, 16 * 64);
-    REQUIRE(values);
-    CHECK(*values == numbers(1, 16 * 64));
+    const auto values = demand(stream.download<uint32_t>(buffer, 16 * 64));
+    CHECK(values == numbers(1, 16 * 64));
 }

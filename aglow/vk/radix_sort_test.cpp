@@ -134,7 +134,7 @@ TEST_CASE("a sorter without memory says so, and sorts once it has got it") {
         options.faults.fail_allocation = failing;
         const TestDevice device(options);
         if (!device) return;
-        auto sort = TestStream::demand(RadixSort::create(device.gpu()));
+        auto sort = demand(RadixSort::create(device.gpu()));
         const Status reserved = sort.reserve(10'000);
         if (reserved) {
             CHECK(failing == device->allocation_count());

@@ -74,7 +74,7 @@ TEST_CASE("a scan reserved for many values scans few, and does without a total")
     const TestDevice device;
     if (!device) return;
     Scanner scanner(device);
-    Scanner::demand(scanner.scan.reserve(1'000'000));
+    demand(scanner.scan.reserve(1'000'000));
     const std::vector<uint32_t> values = random_uints(5000);
     const Buffer buffer = scanner.upload(values);
     scanner.stream.barrier();
@@ -91,7 +91,7 @@ TEST_CASE("prefix sums hold for any values and any part of an array") {
         const auto first = *rc::gen::inRange<size_t>(0, count + 1);
         const auto mask = *rc::gen::arbitrary<uint32_t>();
         const std::vector<uint32_t> values = random_uints(count, mask);
-        Scanner::demand(scanner.scan.reserve(count - first));
+        demand(scanner.scan.reserve(count - first));
         const Buffer in = scanner.upload(values);
         const Buffer out = scanner.upload(values);
         scanner.stream.barrier();

@@ -26,12 +26,10 @@ TEST_CASE("a kernel writes what is read back, however many pieces it takes") {
     Kernel iota = iota_kernel(device.gpu());
     for (uint32_t count : {1u, 63u, 64u, 65u, 1000u, 1u << 20, 65535u * 64 + 1}) {
         CAPTURE(count);
-        auto buffer = stream.make_buffer(uint64_t{count} * 4, "values");
-        REQUIRE(buffer);
-        stream.run(iota, IotaArgs{0, count, buffer->address(), 7}, group_count(count, 64));
-        auto values = stream.download<uint32_t>(*buffer, count);
-        REQUIRE_MESSAGE(values, values.error().message);
-        CHECK(*values == numbers(7, count));
+        const Buffer buffer = demand(stream.make_buffer(uint64_t{count} * 4, "values"));
+        stream.run(iota, IotaArgs{0, count, buffer.address(), 7}, group_count(count, 64));
+        const auto values = demand(stream.download<uint32_t>(buffer, count));
+        CHECK(values == numbers(7, count));
     }
 }
 
@@ -40,13 +38,12 @@ TEST_CASE("nothing to do is done") {
     if (!device) return;
     Stream stream = device.stream();
     Kernel iota = iota_kernel(device.gpu());
-    auto buffer = stream.make_buffer(0, "nothing");
-    REQUIRE(buffer);
+    const Buffer buffer = demand(stream.make_buffer(0, "nothing"));
     stream.run(iota, IotaArgs{}, 0);
-    stream.upload(std::span<const uint32_t>(), *buffer);
+    stream.upload(std::span<const uint32_t>(), buffer);
     stream.barrier();
     CHECK(stream.finish());
-    CHECK(stream.download<uint32_t>(*buffer, 0)->empty());
+    CHECK(stream.download<uint32_t>(buffer, 0)->empty());
     CHECK(device->submit_count() == 0);
     CHECK(stream.take_timings().empty());
 }
@@ -58,17 +55,15 @@ TEST_CASE("uploads, copies and fills of any size arrive in order") {
     for (uint64_t count : {uint64_t{1}, uint64_t{1000}, 3 * kMiB, 9 * kMiB + 5}) {
         CAPTURE(count);
         std::vector<uint32_t> data = numbers(3, count);
-        auto from = make_buffer_of(stream, std::span<const uint32_t>(data), "from");
-        auto to = stream.make_buffer(count * 4, "to");
-        REQUIRE((from && to));
+        const Buffer from = demand(make_buffer_of(stream, std::span<const uint32_t>(data), "from"));
+        const Buffer to = demand(stream.make_buffer(count * 4, "to"));
         stream.barrier();
-        stream.copy(*from, 0, *to, 0, count * 4);
+        stream.copy(from, 0, to, 0, count * 4);
         stream.barrier();
-        stream.fill(*to, 9, (count - 1) * 4, 4);
-        auto values = stream.download<uint32_t>(*to, count);
-        REQUIRE_MESSAGE(values, values.error().message);
+        stream.fill(to, 9, (count - 1) * 4, 4);
+        const auto values = demand(stream.download<uint32_t>(to, count));
         data.back() = 9;
-        CHECK(*values == data);
+        CHECK(values == data);
     }
 }
 
@@ -77,16 +72,14 @@ TEST_CASE("many small uploads are not limited by the staging memory") {
     if (!device) return;
     Stream stream = device.stream();
     const uint64_t count = 3000, words = 1000;
-    auto buffer = stream.make_buffer(count * words * 4, "buffer");
-    REQUIRE(buffer);
+    const Buffer buffer = demand(stream.make_buffer(count * words * 4, "buffer"));
     for (uint32_t i = 0; i < count; ++i) {
         std::vector<uint32_t> data = numbers(i, words);
-        stream.upload(std::span<const uint32_t>(data), *buffer, i * words * 4);
+        stream.upload(std::span<const uint32_t>(data), buffer, i * words * 4);
     }
-    auto values = stream.download<uint32_t>(*buffer, count * words);
-    REQUIRE_MESSAGE(values, values.error().message);
+    const auto values = demand(stream.download<uint32_t>(buffer, count * words));
     bool all = true;
-    for (uint32_t i = 0; i < count * words; ++i) all &= (*values)[i] == i / words + i % words;
+    for (uint32_t i = 0; i < count * words; ++i) all &= values[i] == i / words + i % words;
     CHECK(all);
 }
 
@@ -98,24 +91,22 @@ TEST_CASE("a buffer beyond the device's storage range is read and written by add
     const uint64_t bytes = 200 * kMiB;
     const uint32_t count = 10000, far = 150u << 18;  // 150 MiB into the buffer
     std::vector<uint32_t> data = numbers(11, count);
-    auto small = make_buffer_of(stream, std::span<const uint32_t>(data), "small");
-    auto large = stream.make_buffer(bytes, "large"), back = stream.make_buffer(count * 4, "back");
-    REQUIRE((small && large && back));
-    stream.fill(*large, 1, 0, bytes);
+    const Buffer small = demand(make_buffer_of(stream, std::span<const uint32_t>(data), "small"));
+    const Buffer large = demand(stream.make_buffer(bytes, "large"));
+    const Buffer back = demand(stream.make_buffer(count * 4, "back"));
+    stream.fill(large, 1, 0, bytes);
     stream.barrier();
-    stream.run(shift, ShiftArgs{0, count, small->address(), large->address(), 0, far},
+    stream.run(shift, ShiftArgs{0, count, small.address(), large.address(), 0, far},
                group_count(count, 64));
     stream.barrier();
-    stream.run(shift, ShiftArgs{0, count, large->address(), back->address(), far, 0},
+    stream.run(shift, ShiftArgs{0, count, large.address(), back.address(), far, 0},
                group_count(count, 64));
-    auto values = stream.download<uint32_t>(*back, count);
-    REQUIRE_MESSAGE(values, values.error().message);
-    CHECK(*values == data);
-    auto edge = stream.download<uint32_t>(*large, count + 2, far - 1);
-    REQUIRE_MESSAGE(edge, edge.error().message);
-    CHECK(edge->front() == 1);
-    CHECK(edge->back() == 1);
-    CHECK(std::equal(data.begin(), data.end(), edge->begin() + 1));
+    const auto values = demand(stream.download<uint32_t>(back, count));
+    CHECK(values == data);
+    const auto edge = demand(stream.download<uint32_t>(large, count + 2, far - 1));
+    CHECK(edge.front() == 1);
+    CHECK(edge.back() == 1);
+    CHECK(std::equal(data.begin(), data.end(), edge.begin() + 1));
 }
 
 TEST_CASE("each kernel's time is found under its label, in order of first appearance") {
@@ -127,18 +118,18 @@ TEST_CASE("each kernel's time is found under its label, in order of first appear
         if (!device) return;
         Stream stream = device.stream();
         Kernel iota = iota_kernel(device.gpu()), shift = shift_kernel(device.gpu());
-        auto a = stream.make_buffer(4 * kMiB, "a"), b = stream.make_buffer(4 * kMiB, "b");
-        REQUIRE((a && b));
-        stream.fill(*b, 0, 0, 4 * kMiB);
+        const Buffer a = demand(stream.make_buffer(4 * kMiB, "a"));
+        const Buffer b = demand(stream.make_buffer(4 * kMiB, "b"));
+        stream.fill(b, 0, 0, 4 * kMiB);
         for (int frame = 0; frame < 2; ++frame) {
             Stream::Scope scope(stream, "frame");
-            stream.run(iota, IotaArgs{0, kMiB, a->address(), 0}, kMiB / 64);
+            stream.run(iota, IotaArgs{0, kMiB, a.address(), 0}, kMiB / 64);
             stream.barrier();
-            stream.run(shift, ShiftArgs{0, kMiB, a->address(), b->address()}, kMiB / 64);
+            stream.run(shift, ShiftArgs{0, kMiB, a.address(), b.address()}, kMiB / 64);
             stream.barrier();
         }
-        stream.run(iota, IotaArgs{0, 64, a->address(), 0}, 1);
-        REQUIRE(stream.finish());
+        stream.run(iota, IotaArgs{0, 64, a.address(), 0}, 1);
+        demand(stream.finish());
         std::vector<Timing> timings = stream.take_timings();
         REQUIRE(timings.size() == 4);
         const std::array<const char*, 4> labels{"", "frame", "frame", ""};
@@ -167,18 +158,16 @@ TEST_CASE("a slow kernel is cut so that no submit takes 100 ms") {
     Kernel shift = shift_kernel(device.gpu(), 1);
     const uint32_t groups = 1000, count = groups * 64;
     std::vector<uint32_t> data = numbers(0, count);
-    auto from = make_buffer_of(stream, std::span<const uint32_t>(data), "from");
-    auto to = stream.make_buffer(count * 4, "to");
-    REQUIRE((from && to));
-    REQUIRE(stream.finish());
+    const Buffer from = demand(make_buffer_of(stream, std::span<const uint32_t>(data), "from"));
+    const Buffer to = demand(stream.make_buffer(count * 4, "to"));
+    demand(stream.finish());
     stream.take_submit_seconds();
     const uint32_t rounds = device->info().kind == GpuKind::software ? 5000 : 500000;
-    stream.run(shift, ShiftArgs{0, count, from->address(), to->address(), 0, 0, rounds}, groups);
-    REQUIRE(stream.finish());
+    stream.run(shift, ShiftArgs{0, count, from.address(), to.address(), 0, 0, rounds}, groups);
+    demand(stream.finish());
     std::vector<double> seconds = stream.take_submit_seconds();
-    auto values = stream.download<uint32_t>(*to, count);
-    REQUIRE(values);
-    CHECK(*values == numbers(1, count));
+    const auto values = demand(stream.download<uint32_t>(to, count));
+    CHECK(values == numbers(1, count));
     REQUIRE(seconds.size() > 3);
     seconds.erase(seconds.begin());  // in which the kernel was unknown, and compiled
     std::sort(seconds.begin(), seconds.end());

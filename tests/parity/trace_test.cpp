@@ -3,6 +3,7 @@
 #include "aglow/accel/gpu/testing/agreement.h"
 #include "aglow/accel/gpu/testing/rays.h"
 #include "aglow/accel/gpu_scene.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 #include "tests/parity/scenes.h"
 
@@ -10,6 +11,7 @@
 
 using namespace aglow;
 using namespace aglow::testing;
+using vk::demand;
 
 namespace {
 
@@ -22,12 +24,11 @@ struct Tally {
 Tally compare(const Surfaces& surfaces, const RayScene& reference, GpuScene& scene,
               std::span<const Ray> rays) {
     const Judge judge(surfaces);
-    const auto hits = scene.intersect(rays);
-    REQUIRE_MESSAGE(hits, hits.error().message);
+    const auto hits = demand(scene.intersect(rays));
     Tally tally;
     for (size_t i = 0; i < rays.size(); ++i) {
         const Verdict verdict =
-            judge(rays[i], Judge::answer((*hits)[i]), Judge::answer(reference.intersect(rays[i])));
+            judge(rays[i], Judge::answer(hits[i]), Judge::answer(reference.intersect(rays[i])));
         tally.rounded += verdict == Verdict::rounded;
         tally.differs += verdict == Verdict::differs;
     }
@@ -41,17 +42,16 @@ TEST_CASE("rays meet what Embree says they meet, in every structure") {
     if (!device) return;
     constexpr size_t kRays = 3000;  // of each class, in each scene and structure
     for (const TestScene& test : test_scenes()) {
-        const RayScene reference = *RayScene::create(test.scene, test.surfaces);
+        const RayScene reference = demand(RayScene::create(test.scene, test.surfaces));
         for (const Accel accel : kAccels) {
-            auto scene = GpuScene::create(device.gpu(), test.surfaces, accel);
-            REQUIRE_MESSAGE(scene, scene.error().message);
+            GpuScene scene = demand(GpuScene::create(device.gpu(), test.surfaces, accel));
             for (const RayClass kind : kRayClasses) {
                 CAPTURE(test.name);
                 CAPTURE(std::string(name(accel)));
                 CAPTURE(std::string(testing::name(kind)));
                 const auto rays =
                     RaySource(test.surfaces, static_cast<uint64_t>(kind)).rays(kind, kRays);
-                const Tally tally = compare(test.surfaces, reference, *scene, rays);
+                const Tally tally = compare(test.surfaces, reference, scene, rays);
                 CHECK(tally.differs == 0);
                 if (kind == RayClass::uniform) CHECK(tally.rounded == 0);
             }

@@ -3,12 +3,14 @@
 
 #include "aglow/accel/gpu/testing/closed_meshes.h"
 #include "aglow/accel/gpu/testing/rays.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>
 
 using namespace aglow;
 using namespace aglow::testing;
+using vk::demand;
 
 namespace {
 
@@ -17,9 +19,7 @@ constexpr std::array kAccels = {Accel::grid, Accel::grid2, Accel::bvh};
 Surfaces wavy_ring() { return ring({0, 0, 0}, 3, 1, 0.2f, 24); }
 
 GpuScene make(const vk::TestDevice& device, const Surfaces& surfaces, Accel accel) {
-    auto scene = GpuScene::create(device.gpu(), surfaces, accel);
-    REQUIRE_MESSAGE(scene, scene.error().message);
-    return std::move(*scene);
+    return demand(GpuScene::create(device.gpu(), surfaces, accel));
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ TEST_CASE("a shadow ray is blocked where a ray of its length meets something") {
         auto rays = RaySource(surfaces, 3).rays(RayClass::surface, 5000);
         for (size_t i = 0; i < rays.size(); ++i)
             rays[i].far = 0.2f + 0.001f * static_cast<float>(i);
-        const auto hits = *scene.intersect(rays);
-        const auto blocked = *scene.occluded(rays);
+        const auto hits = demand(scene.intersect(rays));
+        const auto blocked = demand(scene.occluded(rays));
         size_t wrong = 0;
         for (size_t i = 0; i < rays.size(); ++i)
             wrong += (hits[i].triangle != GpuScene::kNoHit) != (blocked[i] == 1);
@@ -52,11 +52,11 @@ TEST_CASE("no ray leaves a closed mesh, be it aimed at its edges and vertices") 
             CAPTURE(std::string(name(accel)));
             GpuScene scene = make(device, mesh.surfaces, accel);
             const auto rays = rays_from_inside(mesh, 20000, 7);
-            const auto hits = *scene.intersect(rays);
+            const auto hits = demand(scene.intersect(rays));
             CHECK(std::count_if(hits.begin(), hits.end(), [](const GpuScene::GpuHit& hit) {
                       return hit.triangle == GpuScene::kNoHit;
                   }) == 0);
-            const auto blocked = *scene.occluded(rays);
+            const auto blocked = demand(scene.occluded(rays));
             CHECK(std::count(blocked.begin(), blocked.end(), 0u) == 0);
         }
 }
@@ -67,11 +67,11 @@ TEST_CASE("batches of any size give each ray its own answer") {
     const Surfaces surfaces = wavy_ring();
     GpuScene scene = make(device, surfaces, Accel::bvh);
     const auto rays = RaySource(surfaces, 5).rays(RayClass::uniform, 300000);
-    const auto all = *scene.intersect(rays);
+    const auto all = demand(scene.intersect(rays));
     REQUIRE(all.size() == rays.size());
     for (const size_t first : {size_t{0}, size_t{262143}, size_t{262144}, size_t{299990}})
         for (const size_t count : {0, 1, 10}) {
-            const auto some = *scene.intersect(std::span(rays).subspan(first, count));
+            const auto some = demand(scene.intersect(std::span(rays).subspan(first, count)));
             REQUIRE(some.size() == count);
             for (size_t i = 0; i < count; ++i) {
                 CHECK(some[i].triangle == all[first + i].triangle);
@@ -88,9 +88,9 @@ TEST_CASE("rays that count their work find the same") {
         CAPTURE(std::string(name(accel)));
         GpuScene scene = make(device, surfaces, accel);
         const auto rays = RaySource(surfaces, 6).rays(RayClass::uniform, 3000);
-        const auto plain = *scene.intersect(rays);
+        const auto plain = demand(scene.intersect(rays));
         CHECK(scene.stats().rays == 0);
-        const auto counted = *scene.intersect(rays, Counting::on);
+        const auto counted = demand(scene.intersect(rays, Counting::on));
         for (size_t i = 0; i < rays.size(); ++i) {
             CHECK(plain[i].triangle == counted[i].triangle);
             CHECK(plain[i].distance == counted[i].distance);
@@ -102,7 +102,7 @@ TEST_CASE("rays that count their work find the same") {
         CHECK(once.triangle_tests < rays.size() * surfaces.triangles.size());
         CHECK(once.references >= surfaces.triangles.size());
         CHECK(once.bytes > surfaces.triangles.size() * 36);
-        REQUIRE(scene.occluded(rays, Counting::on));
+        demand(scene.occluded(rays, Counting::on));
         const AccelStats twice = scene.stats();
         CHECK(twice.rays == 2 * rays.size());
         CHECK(twice.steps - once.steps <= once.steps);  // shadow rays stop at the first hit
@@ -115,9 +115,9 @@ TEST_CASE("a scene with nothing in it is hit by nothing") {
     for (const Accel accel : kAccels) {
         GpuScene scene = make(device, Surfaces{}, accel);
         const std::vector<Ray> rays(100, Ray{{0, 0, 0}, {0, 0, 1}});
-        const auto hits = *scene.intersect(rays);
+        const auto hits = demand(scene.intersect(rays));
         for (const GpuScene::GpuHit& hit : hits) CHECK(hit.triangle == GpuScene::kNoHit);
-        CHECK(*scene.occluded(rays) == std::vector<uint32_t>(rays.size(), 0u));
+        CHECK(demand(scene.occluded(rays)) == std::vector<uint32_t>(rays.size(), 0u));
     }
 }
 
@@ -129,13 +129,13 @@ TEST_CASE("a rebuilt scene is that of the moved surfaces") {
         CAPTURE(std::string(name(accel)));
         GpuScene scene = make(device, surfaces, accel);
         const auto rays = RaySource(surfaces, 8).rays(RayClass::uniform, 2000);
-        REQUIRE(scene.intersect(rays));
+        demand(scene.intersect(rays));
         Surfaces moved = surfaces;
         for (vec3& p : moved.positions) p = vec3{2 * p.z, p.x - 0.3f, p.y};
-        REQUIRE(scene.rebuild(moved));
+        demand(scene.rebuild(moved));
         GpuScene fresh = make(device, moved, accel);
-        const auto hits = *scene.intersect(rays);
-        const auto expected = *fresh.intersect(rays);
+        const auto hits = demand(scene.intersect(rays));
+        const auto expected = demand(fresh.intersect(rays));
         for (size_t i = 0; i < rays.size(); ++i) {
             CHECK(hits[i].triangle == expected[i].triangle);
             CHECK(hits[i].distance == expected[i].distance);
@@ -197,10 +197,9 @@ TEST_CASE("a scene whose allocation failed once works when it is tried again") {
     const auto failed = scene.intersect(rays);
     REQUIRE(!failed);
     CHECK(failed.error().code == Errc::out_of_memory);
-    const auto hits = scene.intersect(rays);
-    REQUIRE(hits);
+    demand(scene.intersect(rays));
     GpuScene fresh = make(device, surfaces, Accel::bvh);
-    CHECK(*scene.occluded(rays) == *fresh.occluded(rays));
+    CHECK(demand(scene.occluded(rays)) == demand(fresh.occluded(rays)));
 }
 
 TEST_CASE("a device may be lost at any submit: the error says so and nothing leaks") {

@@ -5,6 +5,7 @@
 #include "aglow/accel/gpu/trace_rays.h"
 #include "aglow/core/random.h"
 #include "aglow/shared/triangle.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>
@@ -19,6 +20,7 @@ using shared::RayQuery;
 using shared::Triangle;
 using testing::Judge;
 using testing::Verdict;
+using vk::demand;
 
 namespace {
 
@@ -102,28 +104,26 @@ public:
         : gpu_(device.gpu()), stream_(device.stream()), kernels_(gpu_) {}
 
     TraceScene make(const World& world, Accel accel, double rays_per_update = kManyRays) {
-        auto scene = TraceScene::create(gpu_, world.groups, accel, rays_per_update);
-        REQUIRE_MESSAGE(scene, scene.error().message);
-        return std::move(*scene);
+        return demand(TraceScene::create(gpu_, world.groups, accel, rays_per_update));
     }
 
     void update(TraceScene& scene, const std::vector<Triangle>& triangles,
                 std::span<const mat4> transforms) {
-        buffer_ = *gpu_->make_buffer(triangles.size() * sizeof(Triangle), "world");
+        buffer_ = demand(gpu_->make_buffer(triangles.size() * sizeof(Triangle), "world"));
         if (!triangles.empty()) stream_.upload(std::span<const Triangle>(triangles), buffer_);
         stream_.barrier();
-        const Status done = scene.update(
-            stream_, {buffer_.address(), static_cast<uint32_t>(triangles.size())}, transforms);
-        REQUIRE_MESSAGE(done, done.error().message);
-        REQUIRE(stream_.finish());
+        demand(scene.update(stream_, {buffer_.address(), static_cast<uint32_t>(triangles.size())},
+                            transforms));
+        demand(stream_.finish());
     }
 
     std::vector<RayHit> trace(const TraceScene& scene, std::span<const RayQuery> rays) {
-        REQUIRE(kernels_.prepare(scene.kinds(), Query::nearest, Counting::off));
-        REQUIRE(kernels_.prepare(scene.kinds(), Query::any, Counting::off));
-        const vk::Buffer queries = *vk::make_buffer_of(stream_, rays, "rays");
-        const vk::Buffer hits = *gpu_->make_buffer(rays.size() * sizeof(RayHit), "hits");
-        const vk::Buffer blocked = *gpu_->make_buffer(rays.size() * sizeof(uint32_t), "blocked");
+        demand(kernels_.prepare(scene.kinds(), Query::nearest, Counting::off));
+        demand(kernels_.prepare(scene.kinds(), Query::any, Counting::off));
+        const vk::Buffer queries = demand(vk::make_buffer_of(stream_, rays, "rays"));
+        const vk::Buffer hits = demand(gpu_->make_buffer(rays.size() * sizeof(RayHit), "hits"));
+        const vk::Buffer blocked =
+            demand(gpu_->make_buffer(rays.size() * sizeof(uint32_t), "blocked"));
         stream_.barrier();
         for (const Query query : {Query::nearest, Query::any})
             kernels_.record(stream_, scene.kinds(), query, Counting::off,
@@ -134,8 +134,8 @@ public:
                              .hits = hits.address(),
                              .blocked = blocked.address(),
                              .counts = 0});
-        auto found = *stream_.download<RayHit>(hits, rays.size());
-        const auto any = *stream_.download<uint32_t>(blocked, rays.size());
+        auto found = demand(stream_.download<RayHit>(hits, rays.size()));
+        const auto any = demand(stream_.download<uint32_t>(blocked, rays.size()));
         size_t contradictions = 0;
         for (size_t i = 0; i < rays.size(); ++i)
             contradictions += (any[i] == 1) != (found[i].triangle != shared::kNoTriangle);
@@ -405,9 +405,9 @@ TEST_CASE("an update that failed builds all anew") {
         if (!device) return {0, 0};
         vk::Stream stream = device.stream();
         const vk::Buffer buffer =
-            *vk::make_buffer_of(stream, std::span<const Triangle>(triangles), "world");
-        REQUIRE(stream.finish());
-        auto scene = *TraceScene::create(device.gpu(), world.groups, Accel::bvh, kManyRays);
+            demand(vk::make_buffer_of(stream, std::span<const Triangle>(triangles), "world"));
+        demand(stream.finish());
+        auto scene = demand(TraceScene::create(device.gpu(), world.groups, Accel::bvh, kManyRays));
         const int before = device->allocation_count();
         const Status done = scene.update(
             stream, {buffer.address(), static_cast<uint32_t>(triangles.size())}, world.transforms);

@@ -4,6 +4,7 @@
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 #include "aglow/shared/ray.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/primitives.h"
 
 #include <doctest/doctest.h>
@@ -17,6 +18,7 @@
 using namespace aglow;
 using mesh::gpu::DeviceSurfaces;
 using mesh::gpu::PartMotion;
+using vk::demand;
 
 namespace {
 
@@ -90,11 +92,11 @@ Difference difference(vk::TestStream& test, const DeviceSurfaces& device, const 
 
 /// The largest difference over several times, in this order.
 Difference difference(vk::TestStream& test, const Scene& scene, std::span<const double> times) {
-    auto device = test.demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
+    auto device = demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
     Difference all;
     for (const double time : times) {
         test.stream.barrier();
-        test.demand(device.pose(test.stream, time));
+        demand(device.pose(test.stream, time));
         all.add(difference(test, device, scene, time));
     }
     return all;
@@ -306,10 +308,10 @@ TEST_CASE("a node that turns inside out in the course of time turns its triangle
     Scene scene = one_box();
     scene.animations[0].channels.push_back(
         {0, Path::scale, Interpolation::linear, {0, 1}, {1, 1, 1, -1, 1, 1}});
-    auto surfaces = test.demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
+    auto surfaces = demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
     for (const double time : {0.0, 1.0}) {
         test.stream.barrier();
-        test.demand(surfaces.pose(test.stream, time));
+        demand(surfaces.pose(test.stream, time));
         const auto indices = fetch<uvec3>(test, surfaces.indices(), 12);
         CHECK(indices[0] == (time == 0 ? uvec3{0, 1, 2} : uvec3{0, 2, 1}));
         CHECK(difference(test, surfaces, scene, time).is_small());
@@ -343,13 +345,13 @@ TEST_CASE("after the first call only what moves is posed") {
     for (const int node : {0, 2})
         scene.animations[0].channels.push_back(
             {node, Path::translation, Interpolation::linear, {0, 1}, {0, 0, 0, 8, 0, 0}});
-    auto surfaces = test.demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
+    auto surfaces = demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
     CHECK(std::vector<PartMotion>(surfaces.part_motions().begin(), surfaces.part_motions().end()) ==
           std::vector{PartMotion::rigid, PartMotion::still, PartMotion::rigid});
     const std::array before = {surfaces.vertex_count(), surfaces.triangle_count()};
     CHECK(before == std::array{72u, 36u});
-    test.demand(surfaces.pose(test.stream, 0));
-    test.demand(test.stream.finish());
+    demand(surfaces.pose(test.stream, 0));
+    demand(test.stream.finish());
     test.stream.take_timings();
 
     // A mark in the place of each position shows which are written again.
@@ -362,7 +364,7 @@ TEST_CASE("after the first call only what moves is posed") {
     test.stream.run(test.copy_kernel, CopyArgs{0, 3 * 72, marks.address(), surfaces.positions()},
                     vk::group_count(3 * 72, 256));
     test.stream.barrier();
-    test.demand(surfaces.pose(test.stream, 1));
+    demand(surfaces.pose(test.stream, 1));
     const auto positions = fetch<vec3>(test, surfaces.positions(), 72);
     for (size_t v = 0; v < 72; ++v) CHECK((positions[v].x == 77) == (v / 24 == 1));
     CHECK(surfaces.part_transforms()[0].at(0, 3) == 8);
@@ -385,9 +387,9 @@ TEST_CASE("a scene without triangles is posed too") {
     if (!device) return;
     vk::TestStream test(device);
     const Scene scene;
-    auto surfaces = test.demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
-    test.demand(surfaces.pose(test.stream, 0));
-    test.demand(test.stream.finish());
+    auto surfaces = demand(DeviceSurfaces::create(test.stream, scene, pose(scene)));
+    demand(surfaces.pose(test.stream, 0));
+    demand(test.stream.finish());
     CHECK(surfaces.triangle_count() == 0);
 }
 

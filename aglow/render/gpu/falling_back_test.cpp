@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/render/testing/stage.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <cmath>
 
 using namespace aglow;
 using namespace aglow::render::testing;
+using vk::demand;
 
 namespace {
 
@@ -49,12 +51,10 @@ Shot shoot(const Scene& scene, const vk::Faults& faults) {
         warn(first.error());
         first = on_cpu();
     }
-    REQUIRE(first);
-    auto renderer = make_falling_back(std::move(*first), on_cpu, warn);
+    const auto renderer = make_falling_back(demand(std::move(first)), on_cpu, warn);
     for (int frame = 0; frame < kFrames; ++frame) {
-        auto drawn = renderer->draw(frame / 2.0, from_above(3, 1.5f, 12), {});
-        REQUIRE_MESSAGE(drawn, drawn.error().message);
-        shot.frames.push_back(std::move(drawn->luminance));
+        shot.frames.push_back(
+            demand(renderer->draw(frame / 2.0, from_above(3, 1.5f, 12), {})).luminance);
     }
     shot.submits = device->submit_count();
     shot.allocations = device->allocation_count();

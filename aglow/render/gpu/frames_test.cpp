@@ -5,6 +5,7 @@
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 #include "aglow/scene/photometry.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <array>
@@ -17,6 +18,7 @@
 
 using namespace aglow;
 using namespace aglow::render::testing;
+using vk::demand;
 
 namespace {
 
@@ -26,26 +28,19 @@ constexpr Accel kAccels[] = {Accel::grid, Accel::grid2, Accel::bvh};
 struct Pair {
     std::unique_ptr<FrameRenderer> gpu, cpu;
 
-    Pair(const Gpu& device, const Footage& footage, Accel accel) {
-        auto on_gpu = make_gpu_frame_renderer(device, footage, accel);
-        REQUIRE_MESSAGE(on_gpu, on_gpu.error().message);
-        auto on_cpu = make_cpu_frame_renderer(footage);
-        REQUIRE(on_cpu);
-        gpu = std::move(*on_gpu);
-        cpu = std::move(*on_cpu);
-    }
+    Pair(const Gpu& device, const Footage& footage, Accel accel)
+        : gpu(demand(make_gpu_frame_renderer(device, footage, accel))),
+          cpu(demand(make_cpu_frame_renderer(footage))) {}
 
     /// Relative RMSE between their pictures, which must hold something, and be of as many rays but
     /// for one in a thousand.
     double difference_at(double time, const View& view) const {
-        auto drawn = gpu->draw(time, view, {});
-        REQUIRE_MESSAGE(drawn, drawn.error().message);
-        auto wanted = cpu->draw(time, view, {});
-        REQUIRE(wanted);
-        CHECK(static_cast<double>(drawn->rays) ==
-              doctest::Approx(static_cast<double>(wanted->rays)).epsilon(1e-3));
-        const Difference d = difference(drawn->luminance, wanted->luminance).value();
-        CHECK(d.count == drawn->luminance.pixels.size());
+        const auto drawn = demand(gpu->draw(time, view, {}));
+        const auto wanted = demand(cpu->draw(time, view, {}));
+        CHECK(static_cast<double>(drawn.rays) ==
+              doctest::Approx(static_cast<double>(wanted.rays)).epsilon(1e-3));
+        const Difference d = difference(drawn.luminance, wanted.luminance).value();
+        CHECK(d.count == drawn.luminance.pixels.size());
         CHECK(d.non_finite == 0);
         return d.relative_rmse;
     }
@@ -233,13 +228,12 @@ TEST_CASE("a GPU and the CPU draw the same of models in motion") {
     }
     for (const char* name : {"BoxAnimated", "CesiumMan", "Fox", "AnimatedMorphCube"}) {
         CAPTURE(name);
-        auto scene = load_scene(folder / name / (std::string(name) + ".glb"));
-        REQUIRE(scene);
-        scene->sky = Sky{{1000, 1000, 1000}, nullptr};
-        const View view = view_of(*scene, 0, 96, 60);
+        Scene scene = demand(load_scene(folder / name / (std::string(name) + ".glb")));
+        scene.sky = Sky{{1000, 1000, 1000}, nullptr};
+        const View view = view_of(scene, 0, 96, 60);
         for (const Accel accel : kAccels) {
             CAPTURE(std::string(aglow::name(accel)));
-            const Pair pair(device.gpu(), {*scene, nullptr, {.samples = 1}}, accel);
+            const Pair pair(device.gpu(), {scene, nullptr, {.samples = 1}}, accel);
             for (const double time : {0.0, 1.2, 3.0}) {
                 CAPTURE(time);
                 CHECK(pair.difference_at(time, view) < 0.01);
@@ -253,16 +247,15 @@ TEST_CASE("a frame comes out the same again, and whatever was drawn before it") 
     if (!device) return;
     const Everything scene;
     const Footage footage{scene.quads.scene, nullptr, {.samples = 2}};
-    auto renderer = make_gpu_frame_renderer(device.gpu(), footage, Accel::bvh);
-    REQUIRE(renderer);
-    const Image first = (*renderer)->draw(0.3, scene.view(), {}).value().luminance;
+    auto renderer = demand(make_gpu_frame_renderer(device.gpu(), footage, Accel::bvh));
+    const Image first = renderer->draw(0.3, scene.view(), {}).value().luminance;
     View other = scene.view();
     other.width = 33;
     other.height = 7;
-    CHECK((*renderer)->draw(-1, other, {}).value().luminance.pixels.size() == 33 * 7);
-    CHECK((*renderer)->draw(0.3, scene.view(), {}).value().luminance.pixels == first.pixels);
-    CHECK((*renderer)->device() == device.gpu()->info().name);
-    CHECK((*renderer)->accel() == "bvh");
+    CHECK(renderer->draw(-1, other, {}).value().luminance.pixels.size() == 33 * 7);
+    CHECK(renderer->draw(0.3, scene.view(), {}).value().luminance.pixels == first.pixels);
+    CHECK(renderer->device() == device.gpu()->info().name);
+    CHECK(renderer->accel() == "bvh");
 }
 
 TEST_CASE("an empty scene shows its sky, and one without light is black") {
@@ -270,17 +263,15 @@ TEST_CASE("an empty scene shows its sky, and one without light is black") {
     if (!device) return;
     Scene empty;
     empty.sky = Sky{{3, 2, 1}, nullptr};
-    auto renderer = make_gpu_frame_renderer(device.gpu(), {empty}, Accel::automatic);
-    REQUIRE(renderer);
+    auto renderer = demand(make_gpu_frame_renderer(device.gpu(), {empty}, Accel::automatic));
     const View view = from_above(1, 1, 5);
-    const Image sky = (*renderer)->draw(0, view, {}).value().luminance;
+    const Image sky = renderer->draw(0, view, {}).value().luminance;
     for (const vec3 pixel : sky.pixels) CHECK(pixel == vec3{3, 2, 1});
 
     Quads dark;
     dark.floor(diffuse({1, 1, 1}), 2);
-    renderer = make_gpu_frame_renderer(device.gpu(), {dark.scene}, Accel::automatic);
-    REQUIRE(renderer);
-    const Image night = (*renderer)->draw(0, view, {}).value().luminance;
+    renderer = demand(make_gpu_frame_renderer(device.gpu(), {dark.scene}, Accel::automatic));
+    const Image night = renderer->draw(0, view, {}).value().luminance;
     for (const vec3 pixel : night.pixels) CHECK(pixel == vec3{0, 0, 0});
 }
 
@@ -293,13 +284,12 @@ TEST_CASE("bad options, empty views and interruptions are errors on a GPU too") 
         CHECK(make_gpu_frame_renderer(device.gpu(), {quads.scene, nullptr, bad}, Accel::grid)
                   .error()
                   .code == Errc::bad_argument);
-    auto renderer = make_gpu_frame_renderer(device.gpu(), {quads.scene}, Accel::grid);
-    REQUIRE(renderer);
-    CHECK((*renderer)->draw(0, from_above(1, 1, 0), {}).error().code == Errc::bad_argument);
+    auto renderer = demand(make_gpu_frame_renderer(device.gpu(), {quads.scene}, Accel::grid));
+    CHECK(renderer->draw(0, from_above(1, 1, 0), {}).error().code == Errc::bad_argument);
     const std::atomic<bool> cancel = true;
     const View view = from_above(1, 1, 5);
-    CHECK((*renderer)->draw(0, view, {{}, &cancel}).error().code == Errc::cancelled);
-    CHECK((*renderer)->draw(0, view, {}));
+    CHECK(renderer->draw(0, view, {{}, &cancel}).error().code == Errc::cancelled);
+    CHECK(renderer->draw(0, view, {}));
 }
 
 namespace {
@@ -335,10 +325,9 @@ Trial draw_with(const vk::Faults& faults) {
             const auto either = make_falling_back(std::move(*renderer), on_cpu,
                                                   [&](const Error&) { trial.failed = true; });
             for (const double time : {0.0, 0.5}) {
-                auto frame = either->draw(time, view, {});
-                REQUIRE(frame);
+                const auto frame = demand(either->draw(time, view, {}));
                 const Image wanted = on_cpu().value()->draw(time, view, {}).value().luminance;
-                CHECK(difference(frame->luminance, wanted).value().relative_rmse < 0.01);
+                CHECK(difference(frame.luminance, wanted).value().relative_rmse < 0.01);
             }
         }
     }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "aglow/vk/kernel.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/iota.comp.h"
 #include "aglow/vk/testing/shift.comp.h"
-
-#include <doctest/doctest.h>
 
 #include <array>
 #include <numeric>
@@ -29,17 +28,12 @@ struct ShiftArgs {
     uint32_t rounds = 0;  ///< of idle work
 };
 
-inline Kernel must(Result<Kernel> kernel) {
-    REQUIRE_MESSAGE(kernel, kernel.error().message);
-    return std::move(*kernel);
-}
-
 inline Kernel iota_kernel(const Gpu& gpu) {
-    return must(Kernel::create(gpu, "iota", shaders::iota_comp));
+    return demand(Kernel::create(gpu, "iota", shaders::iota_comp));
 }
 
 inline Kernel shift_kernel(const Gpu& gpu, uint32_t add = 0) {
-    return must(Kernel::create(gpu, "shift", shaders::shift_comp, std::array{add}));
+    return demand(Kernel::create(gpu, "shift", shaders::shift_comp, std::array{add}));
 }
 
 inline std::vector<uint32_t> numbers(uint32_t first, uint64_t count) {

@@ -3,13 +3,11 @@
 #pragma once
 #include "aglow/core/random.h"
 #include "aglow/vk/testing/copy.comp.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
-
-#include <doctest/doctest.h>
 
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace aglow::vk {
@@ -36,15 +34,6 @@ struct TestStream {
         : gpu(device.gpu()),
           stream(device.stream()),
           copy_kernel(demand(Kernel::create(gpu, "copy", shaders::copy_comp))) {}
-
-    template <class T>
-    static T demand(Result<T> result) {
-        REQUIRE_MESSAGE(result.has_value(), result.error().message);
-        return std::move(*result);
-    }
-    static void demand(const Status& status) {
-        REQUIRE_MESSAGE(status.has_value(), status.error().message);
-    }
 
     template <class T>
     Buffer upload(const std::vector<T>& values) {

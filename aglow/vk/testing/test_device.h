@@ -3,6 +3,7 @@
 #include "aglow/vk/device.h"
 #include "aglow/vk/instance.h"
 #include "aglow/vk/stream.h"
+#include "aglow/vk/testing/demand.h"
 
 #include <doctest/doctest.h>
 
@@ -43,9 +44,7 @@ public:
             MESSAGE("skipped: there is no Vulkan driver");
             return;
         }
-        auto gpu = Device::open(options);
-        REQUIRE_MESSAGE(gpu, gpu.error().message);
-        gpu_ = std::move(*gpu);
+        gpu_ = demand(Device::open(options));
     }
     TestDevice(const TestDevice&) = delete;
     TestDevice& operator=(const TestDevice&) = delete;
@@ -59,11 +58,7 @@ public:
     explicit operator bool() const { return gpu_ != nullptr; }
     const Gpu& gpu() const { return gpu_; }
     Device* operator->() const { return gpu_.get(); }
-    Stream stream() const {
-        auto stream = Stream::create(gpu_);
-        REQUIRE_MESSAGE(stream, stream.error().message);
-        return std::move(*stream);
-    }
+    Stream stream() const { return demand(Stream::create(gpu_)); }
 
 private:
     std::shared_ptr<Messages> messages_;

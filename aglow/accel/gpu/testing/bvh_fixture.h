@@ -6,9 +6,8 @@
 #include "aglow/core/random.h"
 #include "aglow/shared/structure.h"
 #include "aglow/shared/triangle.h"
+#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
-
-#include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
@@ -113,11 +112,7 @@ public:
 
     template <class T>
     static T demand(Result<T> result) {
-        REQUIRE_MESSAGE(result.has_value(), result.error().message);
-        return std::move(*result);
-    }
-    static void demand(const Status& status) {
-        REQUIRE_MESSAGE(status.has_value(), status.error().message);
+        return vk::demand(std::move(result));
     }
 
     TriangleSpan upload(const Triangles& triangles) {

@@ -6,8 +6,7 @@
 #include "aglow/accel/gpu/testing/grid_reference.h"
 #include "aglow/shared/structure.h"
 #include "aglow/vk/device.h"
-
-#include <doctest/doctest.h>
+#include "aglow/vk/testing/demand.h"
 
 #include <array>
 #include <span>
@@ -19,6 +18,7 @@ namespace aglow::accel::gpu {
 using shared::RayHit;
 using shared::RayQuery;
 using shared::Triangle;
+using vk::demand;
 
 /// What a grid answered, and what it cost.
 struct Traced {
@@ -32,17 +32,17 @@ class GridHarness {
 public:
     GridHarness(const Gpu& gpu, uint32_t kind)
         : gpu_(gpu),
-          stream_(must(vk::Stream::create(gpu))),
-          structure_(must(kind == shared::kStructureGrid ? make_grid(gpu) : make_grid2(gpu))),
+          stream_(demand(vk::Stream::create(gpu))),
+          structure_(demand(kind == shared::kStructureGrid ? make_grid(gpu) : make_grid2(gpu))),
           nearest_(kernel(kind, 0)),
           any_(kernel(kind, 1)),
-          read_(must(vk::Kernel::create(gpu, "grid read", shaders::grid_read_comp))) {}
+          read_(demand(vk::Kernel::create(gpu, "grid read", shaders::grid_read_comp))) {}
 
     Structure& structure() { return *structure_; }
     vk::Stream& stream() { return stream_; }
 
     /// A stream that has failed stays so.
-    void renew_stream() { stream_ = must(vk::Stream::create(gpu_)); }
+    void renew_stream() { stream_ = demand(vk::Stream::create(gpu_)); }
 
     Status build(std::span<const Triangle> triangles) {
         AG_TRY(triangles_, vk::make_buffer_of(stream_, triangles, "triangles"));
@@ -54,9 +54,9 @@ public:
 
     Traced trace(std::span<const RayQuery> rays, bool any = false) {
         const uint64_t count = rays.size();
-        vk::Buffer queries = must(vk::make_buffer_of(stream_, rays, "rays"));
-        vk::Buffer hits = must(gpu_->make_buffer(count * sizeof(RayHit), "hits"));
-        vk::Buffer counts = must(gpu_->make_buffer(count * sizeof(uvec2), "counts"));
+        vk::Buffer queries = demand(vk::make_buffer_of(stream_, rays, "rays"));
+        vk::Buffer hits = demand(gpu_->make_buffer(count * sizeof(RayHit), "hits"));
+        vk::Buffer counts = demand(gpu_->make_buffer(count * sizeof(uvec2), "counts"));
         stream_.barrier();
         struct {
             uint32_t first_group;
@@ -70,8 +70,8 @@ public:
                   counts.address()};
         stream_.run(any ? any_ : nearest_, args, vk::group_count(count, 64));
         Traced traced;
-        traced.hits = must(stream_.download<RayHit>(hits, count));
-        traced.counts = must(stream_.download<uvec2>(counts, count));
+        traced.hits = demand(stream_.download<RayHit>(hits, count));
+        traced.counts = demand(stream_.download<uvec2>(counts, count));
         for (const uvec2& c : traced.counts) {
             traced.steps += c.x / static_cast<double>(count);
             traced.tests += c.y / static_cast<double>(count);
@@ -83,7 +83,7 @@ public:
     template <class T>
     std::vector<T> read(uint64_t address, uint64_t count) {
         static_assert(sizeof(T) % 4 == 0);
-        vk::Buffer copy = must(gpu_->make_buffer(count * sizeof(T), "copy"));
+        vk::Buffer copy = demand(gpu_->make_buffer(count * sizeof(T), "copy"));
         struct {
             uint32_t first_group;
             uint32_t count;
@@ -91,18 +91,13 @@ public:
         } args = {0, static_cast<uint32_t>(count * sizeof(T) / 4), address, copy.address()};
         stream_.barrier();
         stream_.run(read_, args, vk::group_count(args.count, 64));
-        return must(stream_.download<T>(copy, count));
+        return demand(stream_.download<T>(copy, count));
     }
 
 private:
-    template <class T>
-    static T must(Result<T> result) {
-        REQUIRE_MESSAGE(result, result.error().message);
-        return std::move(*result);
-    }
     vk::Kernel kernel(uint32_t kind, uint32_t any) const {
         const std::array<uint32_t, 2> constants = {kind == shared::kStructureGrid2 ? 1u : 0u, any};
-        return must(vk::Kernel::create(gpu_, "grid rays", shaders::grid_rays_comp, constants));
+        return demand(vk::Kernel::create(gpu_, "grid rays", shaders::grid_rays_comp, constants));
     }
 
     Gpu gpu_;
