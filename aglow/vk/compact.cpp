@@ -19,10 +19,7 @@ Result<Compact> Compact::create(const Gpu& gpu) {
 Status Compact::reserve(uint64_t count) {
     const uint64_t blocks = group_count(count, shared::kScanBlock);
     AG_CHECK(scan_.reserve(blocks));
-    if (4 * blocks <= kept_.size()) return {};
-    kept_ = {};
-    AG_TRY(kept_, gpu_->make_buffer(4 * blocks, "items kept of each block"));
-    return {};
+    return gpu_->grow(kept_, 4 * blocks, "items kept of each block");
 }
 
 void Compact::record(Stream& stream, uint64_t flags, uint64_t count, uint64_t indices,

@@ -176,6 +176,15 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
     return buffer;
 }
 
+Status Device::grow(Buffer& buffer, uint64_t bytes, std::string_view name) {
+    const bool had_any = buffer.address() != 0;
+    if (had_any && bytes <= buffer.size()) return {};
+    buffer = {};
+    const uint64_t most = std::max(bytes, physical_.max_allocation_bytes);
+    AG_TRY(buffer, make_buffer(had_any ? std::min(bytes + bytes / 4, most) : bytes, name));
+    return {};
+}
+
 void Device::set_name(VkObjectType type, uint64_t object, std::string_view name) const {
     if (!set_name_) return;
     std::string text(name);

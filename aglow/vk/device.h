@@ -55,6 +55,12 @@ public:
     /// Errors  out_of_memory; names the buffer, the bytes asked for and those in use.
     Result<Buffer> make_buffer(uint64_t bytes, std::string_view name,
                                Memory memory = Memory::device);
+    /// Gives `buffer` at least `bytes` bytes of device memory: keeps what it has where that will
+    /// do, else drops it, and takes a quarter more if there was any, so that what grows slowly does
+    /// not ask each time. What was in it is then lost; as when a buffer dies, nothing that is
+    /// recorded and not submitted yet may use it. Errors  as make_buffer(); the buffer is then
+    /// empty.
+    Status grow(Buffer& buffer, uint64_t bytes, std::string_view name);
 
     /// Bytes of all buffers alive, and the most there have been.
     uint64_t bytes_in_use() const;

@@ -165,6 +165,49 @@ TEST_CASE("a buffer that no memory can hold is an error that says so") {
     }
 }
 
+TEST_CASE("a buffer that grows gets room to spare, and one that is large enough stays") {
+    TestDevice device;
+    if (!device) return;
+    Buffer buffer;
+    demand(device->grow(buffer, 1000, "b"));
+    CHECK(buffer.size() == 1000);
+    const uint64_t address = buffer.address();
+    for (uint64_t bytes : {1000ull, 1ull, 0ull}) {
+        demand(device->grow(buffer, bytes, "b"));
+        CHECK(buffer.address() == address);
+        CHECK(buffer.size() == 1000);
+    }
+    for (uint64_t bytes = 1001; bytes <= 2000; ++bytes) {
+        demand(device->grow(buffer, bytes, "b"));
+        CHECK(buffer.size() >= bytes);
+    }
+    CHECK(device->allocation_count() == 5);             // at 1000, 1001, 1252, 1566 and 1958 bytes
+    CHECK(device->bytes_in_use() < 2 * buffer.size());  // what it had before has gone back
+    Buffer nothing;
+    demand(device->grow(nothing, 0, "nothing"));
+    CHECK(nothing.address() != 0);
+}
+
+TEST_CASE("a buffer that cannot grow is empty, and grows once there is memory") {
+    for (int n : {0, 1}) {
+        CAPTURE(n);
+        DeviceOptions options;
+        options.faults.fail_allocation = n;
+        TestDevice device(options);
+        if (!device) return;
+        Buffer buffer;
+        if (n == 1) demand(device->grow(buffer, 100, "b"));
+        const Status grown = device->grow(buffer, 200, "b");
+        REQUIRE_FALSE(grown);
+        CHECK(grown.error().code == Errc::out_of_memory);
+        CHECK(buffer.address() == 0);
+        CHECK(buffer.size() == 0);
+        CHECK(device->bytes_in_use() == 0);
+        demand(device->grow(buffer, 200, "b"));
+        CHECK(buffer.size() == 200);
+    }
+}
+
 TEST_CASE("a buffer that dies while the device works on it dies after that") {
     TestDevice device;
     if (!device) return;

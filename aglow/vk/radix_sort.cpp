@@ -33,14 +33,9 @@ Result<RadixSort> RadixSort::create(const Gpu& gpu) {
 Status RadixSort::reserve(uint64_t count) {
     const uint64_t tiles = tile_count(count);
     AG_CHECK(scan_.reserve(tiles * shared::kRadixDigits));
-    if (4 * count <= keys_.size() && counts_bytes(tiles) <= counts_.size()) return {};
-    keys_ = {};
-    values_ = {};
-    counts_ = {};
-    AG_TRY(keys_, gpu_->make_buffer(4 * count, "keys being sorted"));
-    AG_TRY(values_, gpu_->make_buffer(4 * count, "values being sorted"));
-    AG_TRY(counts_, gpu_->make_buffer(counts_bytes(tiles), "digit counts of a sort"));
-    return {};
+    AG_CHECK(gpu_->grow(keys_, 4 * count, "keys being sorted"));
+    AG_CHECK(gpu_->grow(values_, 4 * count, "values being sorted"));
+    return gpu_->grow(counts_, counts_bytes(tiles), "digit counts of a sort");
 }
 
 Sorted RadixSort::record(Stream& stream, uint64_t keys, uint64_t values, uint64_t count,

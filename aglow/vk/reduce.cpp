@@ -31,11 +31,7 @@ Result<Reduce> Reduce::create(const Gpu& gpu, Reduction reduction) {
 }
 
 Status Reduce::reserve(uint64_t count) {
-    const uint64_t bytes = 4 * block_result_count(count);
-    if (bytes <= partial_.size()) return {};
-    partial_ = {};
-    AG_TRY(partial_, gpu_->make_buffer(bytes, "results of a reduction's blocks"));
-    return {};
+    return gpu_->grow(partial_, 4 * block_result_count(count), "results of a reduction's blocks");
 }
 
 void Reduce::record(Stream& stream, uint64_t values, uint64_t count, uint64_t result) const {

@@ -19,11 +19,7 @@ Result<Scan> Scan::create(const Gpu& gpu) {
 }
 
 Status Scan::reserve(uint64_t count) {
-    const uint64_t bytes = 4 * (block_result_count(count) + 1);
-    if (bytes <= sums_.size()) return {};
-    sums_ = {};
-    AG_TRY(sums_, gpu_->make_buffer(bytes, "sums of a scan's blocks"));
-    return {};
+    return gpu_->grow(sums_, 4 * (block_result_count(count) + 1), "sums of a scan's blocks");
 }
 
 void Scan::record(Stream& stream, uint64_t in, uint64_t out, uint64_t count, uint64_t total) const {

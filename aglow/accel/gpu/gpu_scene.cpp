@@ -58,9 +58,8 @@ struct GpuScene::State {
     accel::gpu::TraceRays kernels;
     Accel accel = Accel::bvh;
     size_t triangle_count = 0;
-    Status built;         // why there is nothing to trace, if so
-    size_t capacity = 0;  // rays that the buffers below hold
-    vk::Buffer rays, hits, blocked, counts;
+    Status built;                            // why there is nothing to trace, if so
+    vk::Buffer rays, hits, blocked, counts;  // of a batch
     AccelStats counted;
     AccelSeconds seconds;
     std::optional<vk::Stream> stream;  // a failed one is replaced
@@ -108,14 +107,10 @@ Status GpuScene::State::build(vk::Stream& on, std::span<const shared::Triangle> 
 
 Status GpuScene::State::reserve(size_t count) {
     const size_t wanted = std::min(count, kBatch);
-    if (capacity >= wanted) return {};
-    capacity = 0;
-    AG_TRY(rays, gpu->make_buffer(wanted * sizeof(RayQuery), "rays"));
-    AG_TRY(hits, gpu->make_buffer(wanted * sizeof(GpuHit), "hits"));
-    AG_TRY(blocked, gpu->make_buffer(wanted * sizeof(uint32_t), "shadow hits"));
-    AG_TRY(counts, gpu->make_buffer(sizeof(TraceCounts), "ray counts"));
-    capacity = wanted;
-    return {};
+    AG_CHECK(gpu->grow(rays, wanted * sizeof(RayQuery), "rays"));
+    AG_CHECK(gpu->grow(hits, wanted * sizeof(GpuHit), "hits"));
+    AG_CHECK(gpu->grow(blocked, wanted * sizeof(uint32_t), "shadow hits"));
+    return gpu->grow(counts, sizeof(TraceCounts), "ray counts");
 }
 
 template <class T>

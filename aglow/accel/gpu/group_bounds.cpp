@@ -19,10 +19,8 @@ Result<GroupBounds> GroupBounds::create(const Gpu& gpu) {
 }
 
 Status GroupBounds::reserve(uint64_t pieces) {
-    if (boxes_.size() >= pieces * sizeof(shared::Bounds)) return {};
-    AG_TRY(pieces_, gpu_->make_buffer(pieces * sizeof(uvec2), "group bounds: pieces"));
-    AG_TRY(boxes_, gpu_->make_buffer(pieces * sizeof(shared::Bounds), "group bounds: boxes"));
-    return {};
+    AG_CHECK(gpu_->grow(pieces_, pieces * sizeof(uvec2), "group bounds: pieces"));
+    return gpu_->grow(boxes_, pieces * sizeof(shared::Bounds), "group bounds: boxes");
 }
 
 Result<std::vector<Box>> GroupBounds::measure(vk::Stream& stream, TriangleSpan triangles,

@@ -145,10 +145,7 @@ Status Wavefront::make_paths(vk::Stream& stream, uint64_t capacity) {
 Status Wavefront::prepare(vk::Stream& stream, const WavefrontFrame& frame) {
     const shared::CameraView& view = frame.settings.view;
     const uint64_t image_bytes = uint64_t{view.width} * view.height * sizeof(vec3);
-    if (image_.size() < image_bytes) {
-        image_ = {};
-        AG_TRY(image_, stream.gpu()->make_buffer(image_bytes, "image"));
-    }
+    AG_CHECK(stream.gpu()->grow(image_, image_bytes, "image"));
     const uint64_t all = tiled_pixels(view) * frame.settings.samples;
     while (capacity_ < std::min(all, most_paths_)) {
         Status made = make_paths(stream, std::min(all, most_paths_));

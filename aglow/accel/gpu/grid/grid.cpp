@@ -60,11 +60,11 @@ Status Grid::build(vk::Stream& stream, TriangleSpan triangles) {
 Status Grid::fill(vk::Stream& stream, TriangleSpan triangles) {
     GridTools& tools = *tools_;
     stream.barrier();
-    AG_CHECK(grow(gpu_, header_, sizeof(GridHeader), "grid header"));
+    AG_CHECK(gpu_->grow(header_, sizeof(GridHeader), "grid header"));
     if (triangles.count == 0) return write_header(stream, {});
     const uint64_t triangle_bytes = uint64_t{triangles.count} * sizeof(shared::Triangle);
     if (triangle_bytes > triangles_.size()) AG_CHECK(stream.finish());  // rays may still read them
-    AG_CHECK(grow(gpu_, triangles_, triangle_bytes, "grid triangles"));
+    AG_CHECK(gpu_->grow(triangles_, triangle_bytes, "grid triangles"));
     tools.bounds.record(stream, triangles.address, triangles_.address(), triangles.count);
     AG_TRY(const GridLevel::Count count,
            choose_shape(stream, tools.bounds, tools.level, {triangles_.address(), triangles.count},
@@ -73,8 +73,8 @@ Status Grid::fill(vk::Stream& stream, TriangleSpan triangles) {
     if (count.pairs == 0) return write_header(stream, {});
 
     const uint64_t cells = cell_count(shape.resolution);
-    AG_CHECK(grow(gpu_, cells_, cells * 4, "grid cells"));
-    AG_CHECK(grow(gpu_, references_, count.pairs * 4, "grid references"));
+    AG_CHECK(gpu_->grow(cells_, cells * 4, "grid cells"));
+    AG_CHECK(gpu_->grow(references_, count.pairs * 4, "grid references"));
     AG_CHECK(tools.skips.start(stream, shape.resolution));
     AG_TRY(const vk::Sorted sorted, tools.level.sort(stream, count.pairs, cells));
     stream.run(tools.cells,

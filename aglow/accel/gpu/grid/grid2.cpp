@@ -29,7 +29,6 @@ struct Grid2Tools {
     vk::Scan scan;
     vk::Kernel first_cells, second_cells, leaves;
     vk::Buffer begins, ends, leaf_counts;  // of the first level's cells
-    uint64_t scan_capacity = 0;
 };
 
 /// A level's pairs in order of cells.
@@ -77,11 +76,11 @@ Status Grid2::build(vk::Stream& stream, TriangleSpan triangles) {
 Status Grid2::fill(vk::Stream& stream, TriangleSpan triangles) {
     Grid2Tools& tools = *tools_;
     stream.barrier();
-    AG_CHECK(grow(gpu_, header_, sizeof(Grid2Header), "grid header"));
+    AG_CHECK(gpu_->grow(header_, sizeof(Grid2Header), "grid header"));
     if (triangles.count == 0) return write_header(stream, {});
     const uint64_t triangle_bytes = uint64_t{triangles.count} * sizeof(shared::Triangle);
     if (triangle_bytes > triangles_.size()) AG_CHECK(stream.finish());  // rays may still read them
-    AG_CHECK(grow(gpu_, triangles_, triangle_bytes, "grid triangles"));
+    AG_CHECK(gpu_->grow(triangles_, triangle_bytes, "grid triangles"));
     tools.bounds.record(stream, triangles.address, triangles_.address(), triangles.count);
     AG_TRY(const GridLevel::Count first,
            choose_shape(stream, tools.bounds, tools.first, {triangles_.address(), triangles.count},
@@ -108,17 +107,12 @@ Status Grid2::fill(vk::Stream& stream, TriangleSpan triangles) {
 
 Status Grid2::reserve_cells(uint64_t cells) {
     Grid2Tools& tools = *tools_;
-    AG_CHECK(grow(gpu_, cells_, cells * 4, "grid cells"));
-    AG_CHECK(grow(gpu_, leaf_resolutions_, cells * 4, "grid resolutions of cells"));
-    AG_CHECK(grow(gpu_, tools.begins, cells * 4, "grid begins of cells"));
-    AG_CHECK(grow(gpu_, tools.ends, cells * 4, "grid ends of cells"));
-    AG_CHECK(grow(gpu_, tools.leaf_counts, cells * 4, "grid leaf counts"));
-    if (cells > tools.scan_capacity) {
-        tools.scan_capacity = 0;
-        AG_CHECK(tools.scan.reserve(cells + cells / 4));
-        tools.scan_capacity = cells + cells / 4;
-    }
-    return {};
+    AG_CHECK(gpu_->grow(cells_, cells * 4, "grid cells"));
+    AG_CHECK(gpu_->grow(leaf_resolutions_, cells * 4, "grid resolutions of cells"));
+    AG_CHECK(gpu_->grow(tools.begins, cells * 4, "grid begins of cells"));
+    AG_CHECK(gpu_->grow(tools.ends, cells * 4, "grid ends of cells"));
+    AG_CHECK(gpu_->grow(tools.leaf_counts, cells * 4, "grid leaf counts"));
+    return tools.scan.reserve(cells);
 }
 
 /// Which pairs belong to each cell of the first level.
@@ -170,8 +164,8 @@ Result<GridLevel::Count> Grid2::choose_leaves(vk::Stream& stream, const Pairs& f
 Status Grid2::fill_leaves(vk::Stream& stream, const GridLevel::Count& count) {
     Grid2Tools& tools = *tools_;
     const uint64_t leaves = count.work.leaf_cells;
-    AG_CHECK(grow(gpu_, leaf_cells_, leaves * 4, "grid leaf cells"));
-    AG_CHECK(grow(gpu_, references_, count.pairs * 4, "grid references"));
+    AG_CHECK(gpu_->grow(leaf_cells_, leaves * 4, "grid leaf cells"));
+    AG_CHECK(gpu_->grow(references_, count.pairs * 4, "grid references"));
     stream.fill(leaf_cells_, shared::kEmptyCell | 1u, 0, leaves * 4);
     AG_TRY(const vk::Sorted sorted, tools.second.sort(stream, count.pairs, leaves));
     shared::GridCellsArgs args = {};
@@ -214,7 +208,7 @@ Result<std::unique_ptr<Structure>> make_grid2(const Gpu& gpu) {
     auto tools = std::make_shared<Grid2Tools>(
         Grid2Tools{std::move(bounds), std::move(first), std::move(second), std::move(skips),
                    std::move(scan), std::move(first_cells), std::move(second_cells),
-                   std::move(leaves), vk::Buffer(), vk::Buffer(), vk::Buffer(), 0});
+                   std::move(leaves), vk::Buffer(), vk::Buffer(), vk::Buffer()});
     return std::make_unique<Grid2>(gpu, std::move(tools));
 }
 

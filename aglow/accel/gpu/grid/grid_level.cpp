@@ -32,14 +32,6 @@ uint64_t plane_words(uvec3 r) { return uint64_t{shared::row_words(r.x)} * r.y * 
 
 }  // namespace
 
-Status grow(const Gpu& gpu, vk::Buffer& buffer, uint64_t bytes, std::string_view name) {
-    if (buffer.address() != 0 && bytes <= buffer.size()) return {};
-    const bool again = buffer.address() != 0;
-    buffer = vk::Buffer();
-    AG_TRY(buffer, gpu->make_buffer(again ? bytes + bytes / 4 : bytes, name));
-    return {};
-}
-
 // Meshes of even triangles have 2 to 4 pairs each at the densities used. Beyond 24 the build costs
 // more than rays gain; a million cost little whatever the scene.
 uint64_t pair_limit(uint64_t triangles) {
@@ -100,8 +92,8 @@ Status GridLevel::reserve_items(vk::Stream& stream, uint64_t jobs, uint64_t extr
     if (jobs + extras <= item_capacity_) return {};
     AG_CHECK(stream.finish());  // another structure's build may still use the memory
     item_capacity_ = 0;
-    AG_CHECK(grow(gpu_, extras_, jobs * 4, "grid work items"));
-    AG_CHECK(grow(gpu_, counts_, (jobs + extras) * 4, "grid pair counts"));
+    AG_CHECK(gpu_->grow(extras_, jobs * 4, "grid work items"));
+    AG_CHECK(gpu_->grow(counts_, (jobs + extras) * 4, "grid pair counts"));
     const uint64_t capacity = std::min(extras_.size(), counts_.size()) / 4;
     AG_CHECK(scan_.reserve(counts_.size() / 4));
     item_capacity_ = std::max(capacity, jobs + extras);
@@ -109,14 +101,9 @@ Status GridLevel::reserve_items(vk::Stream& stream, uint64_t jobs, uint64_t extr
 }
 
 Status GridLevel::reserve_pairs(uint64_t pairs) {
-    if (pairs <= pair_capacity_) return {};
-    pair_capacity_ = 0;
-    AG_CHECK(grow(gpu_, keys_, pairs * 4, "grid pairs' cells"));
-    AG_CHECK(grow(gpu_, values_, pairs * 4, "grid pairs' triangles"));
-    const uint64_t capacity = std::min(keys_.size(), values_.size()) / 4;
-    AG_CHECK(sorter_.reserve(capacity));
-    pair_capacity_ = capacity;
-    return {};
+    AG_CHECK(gpu_->grow(keys_, pairs * 4, "grid pairs' cells"));
+    AG_CHECK(gpu_->grow(values_, pairs * 4, "grid pairs' triangles"));
+    return sorter_.reserve(pairs);
 }
 
 Result<vk::Sorted> GridLevel::sort(vk::Stream& stream, uint64_t pairs, uint64_t cells) {
@@ -140,7 +127,7 @@ Result<GridSkips> GridSkips::create(const Gpu& gpu) {
 
 Status GridSkips::start(vk::Stream& stream, uvec3 resolution) {
     const uint64_t plane_bytes = plane_words(resolution) * 4;
-    AG_CHECK(grow(gpu_, planes_, (shared::kSkipLevels + 1) * plane_bytes, "grid occupancy"));
+    AG_CHECK(gpu_->grow(planes_, (shared::kSkipLevels + 1) * plane_bytes, "grid occupancy"));
     stream.fill(planes_, 0, 0, plane_bytes);
     return {};
 }

@@ -15,11 +15,6 @@
 
 namespace aglow::accel::gpu {
 
-/// Gives `buffer` at least so many bytes, and some more where it has to grow, so that scenes that
-/// grow slowly do not ask each time. What was in it is lost; nothing on the device may use it.
-/// Errors  out_of_memory; the buffer is then empty.
-Status grow(const Gpu& gpu, vk::Buffer& buffer, uint64_t bytes, std::string_view name);
-
 /// More pairs than this many triangles should have: the grid is then too fine for them.
 uint64_t pair_limit(uint64_t triangles);
 
@@ -59,7 +54,7 @@ private:
     vk::Scan scan_;
     vk::RadixSort sorter_;
     vk::Buffer extras_, counts_, keys_, values_;
-    uint64_t item_capacity_ = 0, pair_capacity_ = 0;
+    uint64_t item_capacity_ = 0;
     uint64_t extra_count_ = 0;  // room for these is made without asking
     shared::GridPairsArgs jobs_ = {};
 };
