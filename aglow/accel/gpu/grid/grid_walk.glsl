@@ -8,6 +8,7 @@
 #ifndef AGLOW_ACCEL_GPU_GRID_WALK_GLSL
 #define AGLOW_ACCEL_GPU_GRID_WALK_GLSL
 #include "aglow/shared/grid.h"
+#include "aglow/shared/triangle.h"
 
 // A ray in units of cells: plane number i of an axis is crossed at t = i * inverse + bias.
 struct CellRay {
@@ -83,35 +84,49 @@ uint cell_index(ivec3 cell, uvec3 resolution) {
     return uint(cell.x) + resolution.x * (uint(cell.y) + resolution.y * uint(cell.z));
 }
 
-// Where a ray's walk begins.
-struct GridEntry {
+// A ray on its way through a grid. One that starts far off the grid would lose its place to
+// rounding, so it is made to start where it enters: t counts from there, `offset` less.
+struct GridWalk {
     bool inside;  // false: the ray meets no cell
     CellRay ray;
-    vec3 origin;   // of the ray in space: a ray that starts far off the grid would lose its place
-    float offset;  // to rounding, so it is made to start where it enters, t less by `offset`
-    float near;    // by that new t
-    float t;       // where the walk begins
+    ShearedRay sheared;
+    float offset;
+    float near;
+    float enter;  // t at which the ray enters `cell`
+    ivec3 cell;
+    RayHit best;  // the nearest so far
 };
 
-GridEntry enter_grid(GridShape shape, RayQuery query, float far) {
-    GridEntry entry;
+// A walk's first cell; hits count below hit.t only.
+GridWalk enter_grid(GridShape shape, RayQuery query, RayHit hit) {
+    GridWalk walk;
     vec3 cells = vec3(shape.resolution);
     vec3 direction = query.direction * shape.cells_per_length;
-    entry.origin = query.origin;
-    entry.offset = 0.0f;
-    entry.near = query.near;
-    entry.ray = cell_ray((entry.origin - shape.lower) * shape.cells_per_length, direction);
-    vec2 span = grid_span(entry.ray, cells, query.near, far);
-    entry.t = span.x;
-    entry.inside = span.x <= span.y && shape.resolution.x != 0u;
-    vec3 away = max(entry.ray.origin - cells, -entry.ray.origin);
-    if (entry.t > 0.0f && largest(away) > 4.0f * largest(cells)) {  // see grid_margin()
-        entry.offset = entry.t;
-        entry.origin += query.direction * entry.offset;
-        entry.near -= entry.offset;
-        entry.ray = cell_ray((entry.origin - shape.lower) * shape.cells_per_length, direction);
-        entry.t = 0.0f;
+    vec3 origin = query.origin;
+    walk.offset = 0.0f;
+    walk.near = query.near;
+    walk.ray = cell_ray((origin - shape.lower) * shape.cells_per_length, direction);
+    vec2 span = grid_span(walk.ray, cells, query.near, hit.t);
+    walk.enter = span.x;
+    walk.inside = span.x <= span.y && shape.resolution.x != 0u;
+    vec3 away = max(walk.ray.origin - cells, -walk.ray.origin);
+    if (walk.enter > 0.0f && largest(away) > 4.0f * largest(cells)) {  // see grid_margin()
+        walk.offset = walk.enter;
+        origin += query.direction * walk.offset;
+        walk.near -= walk.offset;
+        walk.ray = cell_ray((origin - shape.lower) * shape.cells_per_length, direction);
+        walk.enter = 0.0f;
     }
-    return entry;
+    walk.sheared = sheared_ray(origin, query.direction);
+    walk.cell = cell_at(walk.ray, walk.enter, ivec3(0), ivec3(shape.resolution) - 1);
+    walk.best = RayHit(hit.t - walk.offset, kNoTriangle, vec2(0.0f));
+    return walk;
+}
+
+// Lowers `hit` to what the walk found, t counted from the ray's own start.
+void leave_grid(GridWalk walk, inout RayHit hit) {
+    if (walk.best.triangle == kNoTriangle) return;
+    hit = walk.best;
+    hit.t += walk.offset;
 }
 #endif
