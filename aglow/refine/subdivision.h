@@ -56,22 +56,26 @@ public:
 
     uint32_t control_count() const;
     uint32_t vertex_count() const;
+    /// Triangles for Loop, quads for Catmull-Clark; 0 at level 0 of the latter, where faces are
+    /// those of the control mesh.
+    uint32_t face_count() const;
     /// Refined faces, those of one control face after each other, in the same order for every
-    /// face. Loop: triangles; Catmull-Clark: quads. The other is empty (but at level 0 of
-    /// Catmull-Clark, where faces are the control mesh's: both are).
-    std::span<const uvec3> triangles() const;
-    std::span<const std::array<uint32_t, 4>> quads() const;
+    /// face. Loop: triangles; Catmull-Clark: quads. The other is empty.
+    /// Cost  made by every call; bound by memory.
+    std::vector<uvec3> triangles() const;
+    std::vector<std::array<uint32_t, 4>> quads() const;
 
     /// Shapes  control [control_count() * width], refined [vertex_count() * width], both row by
     ///         row.
+    /// Errors  out_of_memory (Catmull-Clark, and Loop below level 5, keep some points aside)
     /// Cost    O(refined), bound by memory: no level between is stored.
     /// Repeat  same bits for any number of threads.
-    void evaluate(std::span<const float> control, int width, std::span<float> refined) const;
-    void evaluate(std::span<const vec3> control, std::span<vec3> refined) const;
+    Status evaluate(std::span<const float> control, int width, std::span<float> refined) const;
+    Status evaluate(std::span<const vec3> control, std::span<vec3> refined) const;
     /// Where the vertices go in the limit, and unit normals there. A vertex that no face touches
     /// has the normal 0.
-    void evaluate_limit(std::span<const vec3> control, std::span<vec3> positions,
-                        std::span<vec3> normals) const;
+    Status evaluate_limit(std::span<const vec3> control, std::span<vec3> positions,
+                          std::span<vec3> normals) const;
 
     struct State;
     const State& state() const { return *state_; }  ///< for the stage's own folders
