@@ -31,7 +31,7 @@ struct PassTime {
 struct DrawnFrame {
     Image luminance;                ///< cd/m^2
     std::vector<PassTime> seconds;  ///< of the passes, in their order
-    uint64_t rays = 0;              ///< camera, mirror and shadow rays
+    RayTally rays;                  ///< of this frame; all 0 where nobody counts
 };
 
 /// Draws a scene with engine `rays`, frame by frame: what render_rays() says, on some device.

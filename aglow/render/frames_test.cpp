@@ -47,6 +47,20 @@ TEST_CASE("a point light that is not baked gives I cos / d^2") {
     }
 }
 
+TEST_CASE("rays are counted by what they look for") {
+    Quads quads;
+    quads.floor(metal(0.8f, 0.1f), 2);
+    add_point_light(quads.scene, {0.5f, 0.5f, 2}, 1000);
+    const auto renderer = make_cpu_frame_renderer({quads.scene, nullptr, {.samples = 2}});
+    REQUIRE(renderer);
+    const auto frame = (*renderer)->draw(0, from_above(3, 1, 5), {});
+    REQUIRE(frame);
+    CHECK(frame->rays.camera == 5 * 5 * 2);
+    CHECK(frame->rays.mirror == 5 * 5 * 2);  // up into the dark
+    CHECK(frame->rays.shadow == 5 * 5 * 2);
+    CHECK(frame->rays.total() == 3 * 5 * 5 * 2);
+}
+
 TEST_CASE("a uniform sky that is not baked gives pi L, without noise where nothing hides it") {
     Quads quads;
     quads.floor(diffuse({kRho, kRho, kRho}), 2);

@@ -28,6 +28,21 @@ inline constexpr int kMostReflections = 64;
 /// Luminance of a white surface under KHR_materials_unlit, which has no light of its own, cd/m^2.
 inline constexpr float kUnlitWhite = 100;
 
+/// Rays traced, by what they look for.
+struct RayTally {
+    uint64_t camera = 0;  ///< what a pixel shows
+    uint64_t mirror = 0;  ///< what a surface mirrors
+    uint64_t shadow = 0;  ///< what stands before a light: a lamp, the sky, an emissive triangle
+
+    uint64_t total() const { return camera + mirror + shadow; }
+    RayTally& operator+=(const RayTally& more) {
+        camera += more.camera;
+        mirror += more.mirror;
+        shadow += more.shadow;
+        return *this;
+    }
+};
+
 /// A scene as it stands at one time. The parts must outlive it.
 struct PosedScene {
     const Scene& scene;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace aglow::cli {
 namespace {
@@ -64,13 +65,13 @@ Result<Json> measure_frames(Renderer made, const Stage& stage) {
     AG_TRY(const auto renderer, std::move(made));
     std::vector<PassTime> passes;
     double seconds = 0;
-    uint64_t rays = 0;
+    RayTally rays;
     for (int frame = 0; frame <= kFrames; ++frame) {
         const Stopwatch watch;
         AG_TRY(const DrawnFrame drawn, renderer->draw(kBenchTime + frame * kStep, stage.view, {}));
         if (frame == 0) continue;
         seconds += watch.seconds() / kFrames;
-        rays += drawn.rays / kFrames;
+        rays += drawn.rays;
         for (const PassTime& pass : drawn.seconds) {
             auto known = std::find_if(passes.begin(), passes.end(),
                                       [&](const PassTime& p) { return p.pass == pass.pass; });
@@ -80,9 +81,10 @@ Result<Json> measure_frames(Renderer made, const Stage& stage) {
     }
     Json stages = Json::object();
     for (const PassTime& pass : passes) stages[pass.pass] = pass.seconds * 1e3;
+    const double rays_per_frame = static_cast<double>(rays.total()) / kFrames;
     return Json{{"frame_ms", seconds * 1e3},
-                {"rays", rays},
-                {"mrays_per_second", static_cast<double>(rays) / seconds / 1e6},
+                {"rays", std::llround(rays_per_frame)},
+                {"mrays_per_second", rays_per_frame / seconds / 1e6},
                 {"stage_ms", stages}};
 }
 

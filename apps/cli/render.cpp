@@ -221,7 +221,10 @@ public:
             passes.push_back({{"pass", pass.pass},
                               {"seconds", pass.seconds / static_cast<double>(outputs_.size())}});
         report["passes"] = passes;
-        report["rays"] = rays_;
+        if (rays_.total() == 0) return;
+        report["rays"] = rays_.total();
+        report["rays_by_kind"] = {
+            {"camera", rays_.camera}, {"mirror", rays_.mirror}, {"shadow", rays_.shadow}};
     }
     const std::vector<std::filesystem::path>& outputs() const { return outputs_; }
 
@@ -272,7 +275,7 @@ private:
     std::optional<View> automatic_view_;
     std::optional<float> exposure_;
     std::vector<PassTime> passes_;  // summed over the frames
-    uint64_t rays_ = 0;
+    RayTally rays_;
     std::vector<std::filesystem::path> outputs_;
 };
 

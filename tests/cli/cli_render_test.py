@@ -6,7 +6,7 @@ import subprocess
 import time
 
 import harness
-from harness import AGLOW, aglow
+from harness import AGLOW
 
 
 class Pictures(harness.AglowTest):
@@ -16,7 +16,10 @@ class Pictures(harness.AglowTest):
         self.assertEqual(report["outputs"], ["f-0002.png", "f-0003.png", "f-0004.png"])
         self.assertEqual((report["frames"], report["device"]), (3, "cpu"))
         self.assertEqual([p["pass"] for p in report["passes"]], ["pose", "build", "trace"])
-        self.assertGreaterEqual(report["rays"], 3 * 32 * 24 * 16)
+        kinds = report["rays_by_kind"]
+        self.assertEqual(list(kinds), ["camera", "mirror", "shadow"])
+        self.assertEqual(kinds["camera"], 3 * 32 * 24 * 16)
+        self.assertEqual(report["rays"], sum(kinds.values()))
         still = [(self.dir / name).read_bytes() for name in report["outputs"]]
         self.assertEqual(still[0], still[1])
         self.assertEqual(still[0], still[2])
@@ -54,17 +57,18 @@ class Pictures(harness.AglowTest):
         self.run_aglow("render", "lit.glb", "-o", "r.png", "--device", "gpu:no such", code=5,
                        says="no such")
         picture = ("--size", "48x32", "--samples", "4")
-        self.run_aglow("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
+        cpu = self.json_of("render", "lit.glb", "-o", "cpu.exr", *picture, "--device", "cpu")
         for accel in ("grid", "grid2", "bvh"):
             report = self.json_of("render", "lit.glb", "-o", f"{accel}.exr", *picture, "--device",
                                   gpus[0], "--accel", accel)
             self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
+            self.assertEqual(report["rays_by_kind"], cpu["rays_by_kind"])
             self.run_aglow("compare", f"{accel}.exr", "cpu.exr", "--max-rmse", "1%")
 
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
                      "--rays", "256", "--device", "gpu:llvmpipe")
-        if aglow(*arguments, cwd=self.dir).returncode == 5:
+        if not any("llvmpipe" in gpu for gpu in self.gpus()):
             self.skipTest("there is no Vulkan driver")
         report = self.json_of(*arguments)
         self.assertIn("llvmpipe", report["device"])
@@ -79,7 +83,29 @@ class Pictures(harness.AglowTest):
                     self.assertEqual(structure[rays]["rays"], embree[rays]["rays"])
                     self.assertGreater(structure[rays]["ratio_to_embree"], 0)
         text = self.run_aglow(*arguments).stdout
-        for word in ("cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
+        for word in ("llvmpipe", "cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
+            self.assertIn(word, text)
+
+    def test_frames_are_measured_with_more_and_more_rays(self):
+        arguments = ("bench", "rays", "--scene", "cube-tc58.glb", "--side", "16", "--device",
+                     "gpu:llvmpipe")
+        if not any("llvmpipe" in gpu for gpu in self.gpus()):
+            self.skipTest("there is no Vulkan driver")
+        report = self.json_of(*arguments)
+        self.assertIn("llvmpipe", report["device"])
+        self.assertEqual(report["side"], 16)
+        scene, = report["scenes"]
+        self.assertEqual((scene["scene"], scene["motion"]), ("cube-tc58.glb", "still"))
+        self.assertEqual([s["accel"] for s in scene["structures"]],
+                         ["embree", "grid", "grid2", "bvh"])
+        for row in scene["structures"]:
+            rays = [row[effect]["rays"] for effect in ("primary", "shadow", "reflection")]
+            self.assertEqual(rays[0], 16 * 16)
+            self.assertLess(rays[0], rays[1])
+            self.assertLess(rays[1], rays[2])
+            self.assertGreater(row["reflection"]["frame_ms"], 0)
+        text = self.run_aglow(*arguments).stdout
+        for word in ("llvmpipe", "16 x 16", "cube-tc58.glb", "still", "embree", "grid2"):
             self.assertIn(word, text)
 
 

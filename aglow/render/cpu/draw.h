@@ -13,9 +13,9 @@ Status check(const RaysOptions& options);
 SharedTables shared_tables(const Scene& scene, const Surfaces& surfaces, bool baked,
                            const RaysOptions& options);
 
-/// Draws the picture that render_rays() describes; adds the rays it traces to `ray_count`.
+/// Draws the picture that render_rays() describes; adds the rays it traces to `tally`.
 /// Errors  bad_argument (empty view, surfaces without lightmap_uvs), cancelled, out_of_memory.
 Result<Image> draw(const World& world, const View& view, const RaysOptions& options,
-                   const Monitor& monitor, uint64_t& ray_count);
+                   const Monitor& monitor, RayTally& tally);
 
 }  // namespace aglow::render::cpu

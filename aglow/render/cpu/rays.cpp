@@ -54,16 +54,28 @@ struct Path {
     vec3 weight = {1, 1, 1};  ///< share of its luminance that reaches the camera
 };
 
+/// Rays that all threads trace.
+struct SharedTally {
+    std::atomic<uint64_t> camera = 0, mirror = 0, shadow = 0;
+
+    void add(const RayTally& more) {
+        camera += more.camera;
+        mirror += more.mirror;
+        shadow += more.shadow;
+    }
+    RayTally sum() const { return {camera, mirror, shadow}; }
+};
+
 /// Follows camera rays.
 struct Tracer {
     const World& world;
     const RaysOptions& options;
-    uint64_t ray_count = 0;
+    RayTally tally = {};
 
     vec3 luminance_along(Path path, uint32_t pixel, uint32_t sample) {
         vec3 sum{0, 0, 0};
         for (uint32_t depth = 0;; ++depth) {
-            ++ray_count;
+            ++(depth == 0 ? tally.camera : tally.mirror);
             const std::optional<Hit> hit = world.rays.intersect(path.ray);
             if (!hit) return sum + path.weight * sky_luminance(world.scene, path.ray.direction);
             path.cone = shared::advanced_cone(path.cone, hit->distance);
@@ -98,7 +110,7 @@ struct Tracer {
                 shared::lobe_alpha(surface.color.roughness, surface.curvature, path.cone.width);
             gloss.to_viewer = -path.ray.direction;
         }
-        const Incoming light = incoming_light(world, surface, gloss, draw, ray_count);
+        const Incoming light = incoming_light(world, surface, gloss, draw, tally.shadow);
         return surface.color.emitted + look.diffuse * light.irradiance + look.mean * light.mean +
                light.highlight;
     }
@@ -139,13 +151,13 @@ SharedTables shared_tables(const Scene& scene, const Surfaces& surfaces, bool ba
 }
 
 Result<Image> draw(const World& world, const View& view, const RaysOptions& options,
-                   const Monitor& monitor, uint64_t& ray_count) try {
+                   const Monitor& monitor, RayTally& tally) try {
     AG_CHECK(check_view(world.surfaces, view, world.stored.irradiance));
     const std::vector<vec2>& offsets = world.tables.offsets;
     const shared::CameraView camera = view.shared_view();
     const shared::RayCone cone =
         shared::camera_cone(camera, static_cast<uint32_t>(options.samples));
-    std::atomic<uint64_t> traced = 0;
+    SharedTally traced;
     Image image(view.width, view.height);
     AG_CHECK(for_each_pixel(view, monitor, [&](size_t pixel) {
         const auto row = static_cast<size_t>(view.width);
@@ -160,9 +172,9 @@ Result<Image> draw(const World& world, const View& view, const RaysOptions& opti
                                           static_cast<uint32_t>(pixel), i);
         }
         image.pixels[pixel] = sum / static_cast<float>(options.samples);
-        traced += tracer.ray_count;
+        traced.add(tracer.tally);
     }));
-    ray_count += traced;
+    tally += traced.sum();
     return image;
 } catch (const std::bad_alloc&) {
     return no_memory_for(view);
@@ -182,8 +194,8 @@ Result<Image> render_rays(const PosedScene& posed, const View& view, const Image
         tables,
         {baked ? &irradiance : nullptr, true},
         punctual_lights(posed.scene, world_transforms(posed.scene, posed.time))};
-    uint64_t ray_count = 0;
-    return render::cpu::draw(world, view, options, monitor, ray_count);
+    RayTally uncounted;
+    return render::cpu::draw(world, view, options, monitor, uncounted);
 } catch (const std::bad_alloc&) {
     return render::cpu::no_memory_for(view);
 }

@@ -211,7 +211,7 @@ Result<DrawnFrame> GpuFrameRenderer::draw_frame(double time, const View& view,
     AG_CHECK(stream_.download_bytes(wavefront_->image(), 0,
                                     std::as_writable_bytes(std::span(frame.luminance.pixels))));
     AG_TRY(const auto counts, stream_.download<shared::RayCounts>(wavefront_->counts(), 1));
-    frame.rays = whole(counts[0].camera) + whole(counts[0].mirror) + whole(counts[0].shadow);
+    frame.rays = {whole(counts[0].camera), whole(counts[0].mirror), whole(counts[0].shadow)};
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     frame.seconds = pass_times(stream_.take_timings(), wall.count());
     return frame;
