@@ -79,7 +79,9 @@ TEST_CASE("a device that is lost is an error, whichever submit it is, and stays 
         options.faults.lose_at_submit = n;
         TestDevice device(options);
         Status status = count_up(device.gpu());
-        REQUIRE_FALSE(status);
+        // Slow work is cut into more submits, so a run can end before the last one of another.
+        REQUIRE(status.has_value() == (device->submit_count() <= n));
+        if (status) continue;
         CHECK(status.error().code == Errc::device_lost);
         CHECK_MESSAGE(status.error().message.find("of counting") != std::string::npos,
                       status.error().message);

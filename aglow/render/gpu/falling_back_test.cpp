@@ -89,7 +89,7 @@ TEST_CASE("a device lost at any submit, or short of memory at any allocation, co
     for (int i = 0; i < whole.submits; i = next(i)) {
         CAPTURE(i);
         const Shot shot = shoot(scene, {.lose_at_submit = i});
-        CHECK(shot.warnings == 1);
+        CHECK(shot.warnings == (shot.submits > i ? 1 : 0));  // a faster run submits less often
         CHECK(differing(shot, whole) <= 2);
     }
     for (int i = 0; i < whole.allocations; i = next(i)) {

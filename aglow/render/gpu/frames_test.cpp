@@ -390,6 +390,7 @@ TEST_CASE("a device that is lost leaves the rest of the pictures to the CPU") {
     const int step = every_fault() ? 1 : 1 + whole.submits / 5;
     for (int n = 0; n < whole.submits; n += step) {
         CAPTURE(n);
-        CHECK(draw_with({.lose_at_submit = n}).failed);
+        const Trial trial = draw_with({.lose_at_submit = n});
+        CHECK(trial.failed == (trial.submits > n));  // a faster run submits less often
     }
 }
