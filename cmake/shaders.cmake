@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles the shaders of a stage: aglow/<stage>/.../name.comp becomes the array
-# aglow::<stage>::shaders::name_comp in <build>/aglow/<stage>/.../name.comp.h. Each is checked by
-# spirv-val. An edited include compiles just the shaders that use it anew.
+# aglow::<stage>::shaders::name_comp in <build>/aglow/<stage>/.../name.comp.h; so do shaders that
+# draw, by their stage. Each is checked by spirv-val. An edited include compiles just the shaders
+# that use it anew.
 find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 function(aglow_shaders stage)
-    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-        ${PROJECT_SOURCE_DIR}/aglow/${stage}/*.comp)
+    set(kinds comp vert tesc tese geom frag)
+    list(TRANSFORM kinds PREPEND ${PROJECT_SOURCE_DIR}/aglow/${stage}/*.)
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${kinds})
     set(headers)
     foreach(shader ${shaders})
         set(source ${PROJECT_SOURCE_DIR}/${shader})

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <type_traits>
+#include <utility>
 
 namespace aglow::vk {
 
@@ -48,14 +50,31 @@ Result<PhysicalDevice> choose(const std::vector<PhysicalDevice>& devices, const 
     return *found;
 }
 
+/// Names of the extensions that the device is opened with.
+std::vector<const char*> extensions_of(const PhysicalDevice& physical) {
+    std::vector<const char*> names;
+    if (physical.full_subgroups_extension)
+        names.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+    if (physical.drawing.rendering_extension)
+        names.push_back(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
+    if (physical.drawing.transform_feedback)
+        names.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    return names;
+}
+
 Result<VkDevice> create_device(const PhysicalDevice& physical) {
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES;
+    rendering.dynamicRendering = VK_TRUE;
+    VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{};
+    feedback.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT;
+    feedback.transformFeedback = VK_TRUE;
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};
     subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
     subgroups.subgroupSizeControl = VK_TRUE;
     subgroups.computeFullSubgroups = VK_TRUE;
     VkPhysicalDeviceVulkan12Features features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    features.pNext = physical.full_subgroups ? &subgroups : nullptr;
     features.bufferDeviceAddress = VK_TRUE;
     features.scalarBlockLayout = VK_TRUE;
     features.timelineSemaphore = VK_TRUE;
@@ -64,6 +83,18 @@ Result<VkDevice> create_device(const PhysicalDevice& physical) {
     all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     all.pNext = &features;
     all.features.shaderInt64 = physical.int64;
+    const DrawingFeatures& drawing = physical.drawing;
+    all.features.geometryShader = drawing.geometry_shader;
+    all.features.tessellationShader = drawing.tessellation_shader;
+    all.features.vertexPipelineStoresAndAtomics = drawing.shader_stores;
+    all.features.fragmentStoresAndAtomics = drawing.shader_stores;
+    all.features.fillModeNonSolid = drawing.lines;
+    auto add = [&](bool wanted, auto& more) {
+        if (wanted) more.pNext = std::exchange(features.pNext, &more);
+    };
+    add(physical.full_subgroups, subgroups);
+    add(drawing.draws, rendering);
+    add(drawing.transform_feedback, feedback);
 
     float priority = 1;
     VkDeviceQueueCreateInfo queue{};
@@ -71,14 +102,14 @@ Result<VkDevice> create_device(const PhysicalDevice& physical) {
     queue.queueFamilyIndex = physical.queue_family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    const char* extension = VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME;
+    std::vector<const char*> extensions = extensions_of(physical);
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &all;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = physical.full_subgroups_extension ? 1 : 0;
-    info.ppEnabledExtensionNames = &extension;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
     VkResult result = vkCreateDevice(physical.handle, &info, nullptr, &device);
     if (result != VK_SUCCESS)
@@ -100,7 +131,9 @@ Status Device::open_device(const DeviceOptions& options) {
     }
     AG_TRY(instance_, Instance::create(messages_));
     AG_TRY(physical_, choose(instance_->devices(), options.name));
+    if (!options.drawing) physical_.drawing = {};
     AG_TRY(device_, create_device(physical_));
+    load_drawing();
     if (!options.timestamps) physical_.timestamp_period = 0;
     if (messages_) {
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
@@ -109,6 +142,31 @@ Status Device::open_device(const DeviceOptions& options) {
     pool_ = std::make_unique<MemoryPool>(physical_.handle, device_, physical_.max_allocation_bytes);
     faults_ = options.faults;
     return make_queue();
+}
+
+void Device::load_drawing() {
+    const DrawingFeatures& has = physical_.drawing;
+    auto load = [&](bool wanted, auto& command, const char* name) {
+        if (!wanted) return;
+        command = reinterpret_cast<std::remove_reference_t<decltype(command)>>(
+            vkGetDeviceProcAddr(device_, name));
+    };
+    bool extension = has.rendering_extension;
+    load(has.draws, drawing_.begin, extension ? "vkCmdBeginRenderingKHR" : "vkCmdBeginRendering");
+    load(has.draws, drawing_.end, extension ? "vkCmdEndRenderingKHR" : "vkCmdEndRendering");
+    bool captures = has.transform_feedback;
+    load(captures, drawing_.bind_capture, "vkCmdBindTransformFeedbackBuffersEXT");
+    load(captures, drawing_.begin_capture, "vkCmdBeginTransformFeedbackEXT");
+    load(captures, drawing_.end_capture, "vkCmdEndTransformFeedbackEXT");
+}
+
+Status Device::check_drawing() const {
+    if (physical_.drawing.draws) return {};
+    return fail(Errc::unsupported,
+                fmt::format("GPU \"{}\" computes but cannot draw: it lacks a graphics queue or "
+                            "dynamic rendering; a newer driver may have them, and engine rays "
+                            "needs neither",
+                            info().name));
 }
 
 Status Device::make_queue() {
@@ -148,7 +206,10 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = bytes;
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                 VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    if (physical_.drawing.transform_feedback)
+        info.usage |= VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT;
     VkBuffer handle = VK_NULL_HANDLE;
     VkResult result = vkCreateBuffer(device_, &info, nullptr, &handle);
     if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));

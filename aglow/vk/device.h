@@ -3,6 +3,7 @@
 #include "aglow/core/result.h"
 #include "aglow/vk/buffer.h"
 #include "aglow/vk/devices.h"
+#include "aglow/vk/image.h"
 #include "aglow/vk/messages.h"
 #include "aglow/vk/physical_device.h"
 
@@ -20,7 +21,7 @@ class Instance;
 
 /// Failures that tests ask for. Counts start at 0; -1: never.
 struct Faults {
-    int fail_allocation = -1;  ///< this buffer cannot be had: out of memory
+    int fail_allocation = -1;  ///< this buffer or image cannot be had: out of memory
     int lose_at_submit = -1;   ///< this submit and all that follow: the device is lost
 };
 
@@ -30,12 +31,22 @@ struct DeviceOptions {
     /// Where the messages go; one of its own if null. Keep it to hear what leaks.
     std::shared_ptr<Messages> messages = nullptr;
     bool timestamps = true;  ///< false: do as on a queue that has none
+    bool drawing = true;     ///< false: do as on a device that only computes
     Faults faults = {};
 };
 
-/// One Vulkan device with one compute queue. Outlives everything that is made from it: makers keep
-/// the Gpu they were given, or are kept by something that does.
-/// Thread safety  all members may be called from any thread.
+/// Commands for drawing that drivers offer as extensions; null where they are missing.
+struct DrawingCommands {
+    PFN_vkCmdBeginRendering begin = nullptr;
+    PFN_vkCmdEndRendering end = nullptr;
+    PFN_vkCmdBindTransformFeedbackBuffersEXT bind_capture = nullptr;
+    PFN_vkCmdBeginTransformFeedbackEXT begin_capture = nullptr;
+    PFN_vkCmdEndTransformFeedbackEXT end_capture = nullptr;
+};
+
+/// One Vulkan device with one queue, which computes, and draws where the device can. Outlives
+/// everything that is made from it: makers keep the Gpu they were given, or are kept by something
+/// that does. Thread safety  all members may be called from any thread.
 class Device {
 public:
     static Result<Gpu> open(const DeviceOptions& options);
@@ -62,7 +73,15 @@ public:
     /// empty.
     Status grow(Buffer& buffer, uint64_t bytes, std::string_view name);
 
-    /// Bytes of all buffers alive, and the most there have been.
+    /// An image to draw into. `name` as above.
+    /// Errors  out_of_memory, unsupported (the device cannot draw into such images).
+    Result<Image> make_image(const ImageOptions& options, std::string_view name);
+
+    /// Errors  unsupported: the device only computes.
+    Status check_drawing() const;
+    const DrawingCommands& drawing() const { return drawing_; }
+
+    /// Bytes of all buffers and images alive, and the most there have been.
     uint64_t bytes_in_use() const;
     uint64_t peak_bytes() const;
 
@@ -79,7 +98,8 @@ public:
     /// Gives an object a name in the driver's tools and in messages().
     void set_name(VkObjectType type, uint64_t object, std::string_view name) const;
 
-    /// How many buffers were asked for and how often work was submitted: the range of Faults.
+    /// How many buffers and images were asked for and how often work was submitted: the range of
+    /// Faults.
     int allocation_count() const;
     int submit_count() const;
 
@@ -90,6 +110,7 @@ private:
     Device() = default;
     Status open_device(const DeviceOptions& options);
     Status make_queue();
+    void load_drawing();
     tl::unexpected<Error> lost(std::string_view what);
     void reap() const;
 
@@ -98,6 +119,7 @@ private:
     PhysicalDevice physical_;
     VkDevice device_ = VK_NULL_HANDLE;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    DrawingCommands drawing_;
     std::unique_ptr<MemoryPool> pool_;
     Faults faults_;
     std::atomic<int> allocation_count_ = 0;

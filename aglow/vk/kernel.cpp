@@ -4,6 +4,7 @@
 #include "aglow/vk/device.h"
 #include "aglow/vk/failure.h"
 #include "aglow/vk/kernel_rate.h"
+#include "aglow/vk/shader_module.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace aglow::vk {
 namespace {
 
 constexpr uint32_t kPushBytes = 128;  // every device has as many
-constexpr uint32_t kSpirvMagic = 0x07230203;
 
 struct GroupSize {
     uint32_t x = 0, y = 0, z = 0;
@@ -42,30 +42,6 @@ GroupSize group_size(std::span<const uint32_t> spirv) {
         at += words;
     }
     return size;
-}
-
-Result<ShaderModule> make_module(VkDevice device, std::span<const uint32_t> spirv,
-                                 std::string_view doing) {
-    VkShaderModuleCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = spirv.size_bytes();
-    info.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    VkResult result = vkCreateShaderModule(device, &info, nullptr, &module);
-    if (result != VK_SUCCESS) return failure(result, doing);
-    return ShaderModule(device, module);
-}
-
-Result<PipelineLayout> make_layout(VkDevice device, std::string_view doing) {
-    VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kPushBytes};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkResult result = vkCreatePipelineLayout(device, &info, nullptr, &layout);
-    if (result != VK_SUCCESS) return failure(result, doing);
-    return PipelineLayout(device, layout);
 }
 
 Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelineLayout layout,
@@ -96,13 +72,7 @@ Result<Pipeline> make_pipeline(VkDevice device, VkShaderModule module, VkPipelin
     VkPipeline pipeline = VK_NULL_HANDLE;
     VkResult result =
         vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
-        return failure(result, doing);
-    if (result != VK_SUCCESS) {
-        return fail(Errc::unsupported, fmt::format("the driver refused (Vulkan error {}) {}; a "
-                                                   "newer driver may take it",
-                                                   static_cast<int>(result), doing));
-    }
+    if (result != VK_SUCCESS) return pipeline_failure(result, doing);
     return Pipeline(device, pipeline);
 }
 
@@ -125,8 +95,6 @@ Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
                               std::span<const uint32_t> spirv,
                               std::span<const uint32_t> constants) {
     std::string doing = fmt::format("compiling kernel \"{}\"", name);
-    if (spirv.size() < 5 || spirv[0] != kSpirvMagic)
-        return fail(Errc::unsupported, fmt::format("kernel \"{}\" is no SPIR-V", name));
     GroupSize size = group_size(spirv);
     uint64_t invocations = uint64_t{size.x} * size.y * size.z;
     if (invocations > gpu->physical().max_group_size) {
@@ -144,7 +112,8 @@ Result<Kernel> Kernel::create(const Gpu& gpu, std::string_view name,
     kernel.name_ = name;
     AG_TRY(ShaderModule module, make_module(gpu->get(), spirv, doing));
     kernel.owned_ = std::make_shared<Owned>();
-    AG_TRY(kernel.owned_->layout, make_layout(gpu->get(), doing));
+    AG_TRY(kernel.owned_->layout,
+           make_layout(gpu->get(), VK_SHADER_STAGE_COMPUTE_BIT, kPushBytes, doing));
     AG_TRY(kernel.owned_->pipeline,
            make_pipeline(gpu->get(), module.get(), kernel.layout(), constants, subgroups, doing));
     kernel.rate_ = std::make_shared<KernelRate>();

@@ -64,14 +64,14 @@ MemoryPool::MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_
 
 MemoryPool::~MemoryPool() { AG_ASSERT(bytes_in_use_ == 0, "buffers die before their device"); }
 
-tl::unexpected<Error> MemoryPool::full(uint64_t bytes, uint32_t type, std::string_view name) const {
+tl::unexpected<Error> MemoryPool::full(const Request& request, uint32_t type) const {
     const VkMemoryType& memory = properties_.memoryTypes[type];
     uint64_t heap = properties_.memoryHeaps[memory.heapIndex].size;
     return fail(
         Errc::out_of_memory,
-        fmt::format("buffer \"{}\" needs {} bytes of {} memory; {} of {} are in use, and "
-                    "one buffer can have {}",
-                    name, bytes,
+        fmt::format("{0} \"{1}\" needs {2} bytes of {3} memory; {4} of {5} are in use, and "
+                    "one {0} can have {6}",
+                    request.kind, request.name, request.bytes,
                     memory.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT ? "GPU" : "host",
                     bytes_in_use_, heap, std::min(max_allocation_bytes_, heap)));
 }
@@ -82,12 +82,11 @@ tl::unexpected<Error> MemoryPool::too_large(uint64_t bytes, std::string_view nam
                             name, bytes, max_allocation_bytes_));
 }
 
-Result<MemoryBlock*> MemoryPool::add_block(uint64_t bytes, uint32_t type, std::string_view name,
-                                           uint64_t asked) {
+Result<MemoryBlock*> MemoryPool::add_block(uint64_t bytes, uint32_t type, const Request& request) {
     const VkMemoryType& memory_type = properties_.memoryTypes[type];
     if (bytes > max_allocation_bytes_ ||
         bytes > properties_.memoryHeaps[memory_type.heapIndex].size)
-        return full(asked, type, name);
+        return full(request, type);
     VkMemoryAllocateFlagsInfo flags{};
     flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
@@ -98,18 +97,18 @@ Result<MemoryBlock*> MemoryPool::add_block(uint64_t bytes, uint32_t type, std::s
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     if (vkAllocateMemory(device_, &info, nullptr, &memory) != VK_SUCCESS)
-        return full(asked, type, name);
+        return full(request, type);
     auto block = std::make_unique<MemoryBlock>(
         MemoryBlock{type, false, DeviceMemory(device_, memory), nullptr, FreeList(bytes)});
     bool visible = memory_type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
     if (visible && vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped) != VK_SUCCESS)
-        return full(asked, type, name);
+        return full(request, type);
     blocks_.push_back(std::move(block));
     return blocks_.back().get();
 }
 
 Result<Allocation> MemoryPool::allocate(const VkMemoryRequirements& needs, Memory memory,
-                                        std::string_view name) {
+                                        std::string_view name, std::string_view kind) {
     uint64_t bytes = round_up(needs.size, kGrain);
     uint64_t alignment = std::max(needs.alignment, kGrain);
     std::lock_guard lock(mutex_);
@@ -125,7 +124,7 @@ Result<Allocation> MemoryPool::allocate(const VkMemoryRequirements& needs, Memor
         if (block->shared && block->type == type) offset = block->ranges.allocate(bytes, alignment);
     }
     if (!offset) {
-        AG_TRY(block, add_block(shared ? block_bytes : bytes, type, name, needs.size));
+        AG_TRY(block, add_block(shared ? block_bytes : bytes, type, {needs.size, name, kind}));
         block->shared = shared;
         offset = block->ranges.allocate(bytes, alignment);
     }

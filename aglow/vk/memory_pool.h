@@ -36,9 +36,10 @@ public:
     MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_allocation_bytes);
     ~MemoryPool();
 
+    /// `kind` is what the memory is for, "buffer" or "image".
     /// Errors  out_of_memory; `name` and the memory asked for, in use and in the heap are named.
     Result<Allocation> allocate(const VkMemoryRequirements& needs, Memory memory,
-                                std::string_view name);
+                                std::string_view name, std::string_view kind = "buffer");
     void free(const Allocation& allocation);
     /// The error of a buffer that no single piece of memory can hold.
     tl::unexpected<Error> too_large(uint64_t bytes, std::string_view name) const;
@@ -48,9 +49,12 @@ public:
     size_t block_count() const;  ///< pieces of memory that the driver gave
 
 private:
-    tl::unexpected<Error> full(uint64_t bytes, uint32_t type, std::string_view name) const;
-    Result<MemoryBlock*> add_block(uint64_t bytes, uint32_t type, std::string_view name,
-                                   uint64_t asked);
+    struct Request {
+        uint64_t bytes = 0;
+        std::string_view name, kind;
+    };
+    tl::unexpected<Error> full(const Request& request, uint32_t type) const;
+    Result<MemoryBlock*> add_block(uint64_t bytes, uint32_t type, const Request& request);
 
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_;

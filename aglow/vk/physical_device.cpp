@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace aglow::vk {
 
@@ -27,15 +29,22 @@ GpuKind kind_of(VkPhysicalDeviceType type) {
     }
 }
 
-std::vector<std::string> extensions_of(VkPhysicalDevice device) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> found(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, found.data());
-    std::vector<std::string> names;
-    for (const VkExtensionProperties& extension : found) names.push_back(extension.extensionName);
-    return names;
-}
+class Extensions {
+public:
+    explicit Extensions(VkPhysicalDevice device) {
+        uint32_t count = 0;
+        vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+        extensions_.resize(count);
+        vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions_.data());
+    }
+    bool has(std::string_view name) const {
+        return std::any_of(extensions_.begin(), extensions_.end(),
+                           [&](const auto& extension) { return name == extension.extensionName; });
+    }
+
+private:
+    std::vector<VkExtensionProperties> extensions_;
+};
 
 uint64_t largest_local_heap(VkPhysicalDevice device) {
     VkPhysicalDeviceMemoryProperties memory;
@@ -71,6 +80,7 @@ void examine_queues(PhysicalDevice& device, float period, std::vector<std::strin
         return;
     }
     device.queue_family = *family;
+    device.drawing.draws = families[*family].queueFlags & VK_QUEUE_GRAPHICS_BIT;
     uint32_t bits = families[*family].timestampValidBits;
     if (bits == 0) return;
     device.timestamp_period = period;
@@ -100,6 +110,7 @@ void examine_properties(PhysicalDevice& device, std::vector<std::string>& missin
     device.info.subgroup_size = subgroups.subgroupSize;
     device.max_allocation_bytes = sizes.maxMemoryAllocationSize;
     device.max_group_size = limits.maxComputeWorkGroupInvocations;
+    device.drawing.granularity = limits.bufferImageGranularity;
     require(limits.maxComputeSharedMemorySize >= kSharedBytes, "32 KiB of shared memory", missing);
     require(limits.maxComputeWorkGroupInvocations >= kGroupSize, "groups of 256 invocations",
             missing);
@@ -125,11 +136,42 @@ bool can_fix_subgroups(VkPhysicalDevice handle) {
     return sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
-void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std::string>& missing) {
-    std::vector<std::string> extensions = extensions_of(device.handle);
-    auto has = [&](const char* name) {
-        return std::find(extensions.begin(), extensions.end(), name) != extensions.end();
+/// The queue's part of drawing.draws is known before.
+void examine_drawing(PhysicalDevice& device, bool version_1_3, const Extensions& extensions) {
+    bool rendering_extension = extensions.has(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES;
+    VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{};
+    feedback.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT;
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    VkPhysicalDeviceFeatures2 all{};
+    all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    auto ask = [&](bool known, auto& features) {
+        if (known) features.pNext = std::exchange(all.pNext, &features);
     };
+    ask(version_1_3 || rendering_extension, rendering);
+    ask(extensions.has(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME), feedback);
+    ask(extensions.has(VK_EXT_MESH_SHADER_EXTENSION_NAME), mesh);
+    vkGetPhysicalDeviceFeatures2(device.handle, &all);
+
+    DrawingFeatures& drawing = device.drawing;
+    drawing.draws = drawing.draws && rendering.dynamicRendering;
+    if (!drawing.draws) return;
+    drawing.rendering_extension = !version_1_3;
+    drawing.geometry_shader = all.features.geometryShader;
+    drawing.tessellation_shader = all.features.tessellationShader;
+    drawing.transform_feedback = feedback.transformFeedback && drawing.geometry_shader;
+    drawing.mesh_shader = mesh.meshShader && mesh.taskShader;
+    drawing.shader_stores =
+        all.features.vertexPipelineStoresAndAtomics && all.features.fragmentStoresAndAtomics;
+    drawing.lines = all.features.fillModeNonSolid;
+}
+
+void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std::string>& missing) {
+    const Extensions extensions(device.handle);
+    auto has = [&](const char* name) { return extensions.has(name); };
+    examine_drawing(device, version_1_3, extensions);
     bool sizes_extension = has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
 
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};
@@ -156,8 +198,11 @@ void examine_features(PhysicalDevice& device, bool version_1_3, std::vector<std:
         if (offered) device.info.features.push_back(name);
     };
     offer(has(VK_KHR_RAY_QUERY_EXTENSION_NAME), "ray query");
-    offer(has(VK_EXT_MESH_SHADER_EXTENSION_NAME), "mesh shader");
-    offer(all.features.geometryShader, "geometry shader");
+    offer(device.drawing.draws, "drawing");
+    offer(device.drawing.mesh_shader, "mesh shader");
+    offer(device.drawing.geometry_shader, "geometry shader");
+    offer(device.drawing.tessellation_shader, "tessellation shader");
+    offer(device.drawing.transform_feedback, "transform feedback");
     offer(has(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME), "float atomics");
     offer(features.descriptorIndexing, "descriptor indexing");
     offer(device.full_subgroups, "subgroup size control");

@@ -8,6 +8,19 @@
 
 namespace aglow::vk {
 
+/// What a device can draw with.
+struct DrawingFeatures {
+    bool draws = false;                ///< its queue draws, with dynamic rendering
+    bool rendering_extension = false;  ///< and that takes an extension
+    bool geometry_shader = false;
+    bool tessellation_shader = false;
+    bool transform_feedback = false;  ///< implies geometry_shader
+    bool mesh_shader = false;
+    bool shader_stores = false;  ///< vertex and fragment shaders can write to buffers
+    bool lines = false;          ///< polygons can be drawn as their outlines
+    uint64_t granularity = 1;    ///< bytes that keep images and buffers apart in memory
+};
+
 /// A device that a driver offers, and what opening it needs to know.
 struct PhysicalDevice {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
@@ -21,6 +34,7 @@ struct PhysicalDevice {
     uint64_t timestamp_mask = 0;            ///< the bits of a timestamp that count
     uint64_t max_allocation_bytes = 0;      ///< of one piece of memory
     uint32_t max_group_size = 0;            ///< invocations
+    DrawingFeatures drawing;
 };
 
 PhysicalDevice examine(VkPhysicalDevice handle);

@@ -40,6 +40,7 @@ Status Recorder::make_objects() {
     query_info.queryCount = kBatchEntries + 1;
     for (size_t i = 0; i < kBatches; ++i) {
         batches_[i].target.commands = commands[i];
+        batches_[i].target.end_rendering = gpu_->drawing().end;
         if (gpu_->timestamp_period() == 0) continue;
         VkQueryPool queries = VK_NULL_HANDLE;
         result = vkCreateQueryPool(device, &query_info, nullptr, &queries);
@@ -109,22 +110,30 @@ void Recorder::add_entry(const Entry& entry) {
 
 void Recorder::barrier() {
     if (!unordered_ || !begin(0)) return;
+    RecordTarget& target = slot(next_).target;
+    target.end_drawing();
     VkMemoryBarrier all{};
     all.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     all.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     all.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
                         VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
                         VK_ACCESS_HOST_READ_BIT;
-    constexpr VkPipelineStageFlags kDevice =
+    VkPipelineStageFlags device =
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    vkCmdPipelineBarrier(slot(next_).target.commands, kDevice, kDevice | VK_PIPELINE_STAGE_HOST_BIT,
-                         0, 1, &all, 0, nullptr, 0, nullptr);
+    if (target.end_rendering) {  // any stage of drawing may have written, or read next
+        device = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        all.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+        all.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    }
+    vkCmdPipelineBarrier(target.commands, device, device | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &all,
+                         0, nullptr, 0, nullptr);
     unordered_ = false;
 }
 
 void Recorder::submit() {
     Batch& batch = slot(next_);
     if (!batch.recording || failure_) return;
+    batch.target.end_drawing();
     batch.recording = false;
     VkResult result = vkEndCommandBuffer(batch.target.commands);
     if (result != VK_SUCCESS) return fail_with(vk::failure(result, "recording GPU work").value());

@@ -19,7 +19,25 @@ namespace aglow::vk {
 /// Where work is recorded.
 struct RecordTarget {
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkPipeline bound = VK_NULL_HANDLE;  ///< the pipeline that it has bound last
+    VkPipeline bound = VK_NULL_HANDLE;              ///< the pipeline that it has bound last
+    VkImageView drawing = VK_NULL_HANDLE;           ///< what is being drawn into
+    PFN_vkCmdEndRendering end_rendering = nullptr;  ///< null where the device cannot draw
+
+    /// What is recorded next does not draw, or not into this.
+    void end_drawing() {
+        if (drawing) end_rendering(commands);
+        drawing = VK_NULL_HANDLE;
+    }
+};
+
+/// What is recorded in pieces.
+struct Work {
+    std::string_view name;
+    const std::shared_ptr<KernelRate>& rate;
+    uint64_t groups = 0;
+    uint64_t grain = 1;     ///< pieces are a multiple of it
+    uint64_t most = 65535;  ///< groups of a piece
+    bool draws = false;     ///< it may follow what draws without an end to that
 };
 
 /// Records work into command buffers ("batches") and submits these so that each is expected to take
@@ -32,10 +50,9 @@ public:
     Recorder& operator=(const Recorder&) = delete;
     ~Recorder();  ///< waits for what was submitted
 
-    /// Records `groups` groups of what has this rate in pieces: record(target, first, count).
+    /// Records work in pieces: record(target, first, count).
     template <class Record>
-    void run(std::string_view kernel, const std::shared_ptr<KernelRate>& rate, uint64_t groups,
-             Record record);
+    void run(const Work& work, Record record);
     void barrier();  ///< see Stream
     void submit();   ///< what is recorded, if anything is
     void wait(uint64_t batch);
@@ -69,7 +86,6 @@ private:
         Clock::time_point submitted;
     };
     static constexpr double kSubmitSeconds = 0.05;  // twice as slow is still below 100 ms
-    static constexpr uint64_t kMaxGroups = 65535;   // in one dispatch
     static constexpr size_t kBatches = 4;           // in flight
     static constexpr uint32_t kBatchEntries = 512;
 
@@ -97,18 +113,19 @@ private:
 };
 
 template <class Record>
-void Recorder::run(std::string_view kernel, const std::shared_ptr<KernelRate>& rate,
-                   uint64_t groups, Record record) {
-    uint32_t row = timings_.row(rate, kernel);
-    for (uint64_t first = 0; first < groups;) {
-        KernelRate::Piece piece = rate->next_piece(kSubmitSeconds);
-        uint64_t count = std::min({groups - first, piece.groups, kMaxGroups});
+void Recorder::run(const Work& work, Record record) {
+    uint32_t row = timings_.row(work.rate, work.name);
+    for (uint64_t first = 0; first < work.groups;) {
+        KernelRate::Piece piece = work.rate->next_piece(kSubmitSeconds);
+        uint64_t fitting = std::max(std::min(piece.groups, work.most) / work.grain, uint64_t{1});
+        uint64_t count = std::min(work.groups - first, fitting * work.grain);
         double expected = static_cast<double>(count) * piece.seconds_per_group;
         if (!begin(expected)) return;
+        if (!work.draws) slot(next_).target.end_drawing();
         record(slot(next_).target, first, count);
-        add_entry({row, rate.get(), count, expected, first == 0});
+        add_entry({row, work.rate.get(), count, expected, first == 0});
         first += count;
-        if (first == groups || !piece.probe || count < piece.groups) continue;
+        if (first == work.groups || !piece.probe || count + work.grain <= piece.groups) continue;
         submit();
         if (!failure_) wait(next_ - 1);
     }

@@ -3,8 +3,7 @@
 
 #include "aglow/core/assert.h"
 #include "aglow/vk/device.h"
-#include "aglow/vk/recorder.h"
-#include "aglow/vk/staging_ring.h"
+#include "aglow/vk/stream_state.h"
 
 #include <algorithm>
 #include <array>
@@ -14,29 +13,10 @@ namespace aglow::vk {
 
 namespace {
 
-constexpr uint64_t kUploadRing = uint64_t{8} << 20;
 constexpr uint64_t kUploadChunk = kUploadRing / 4;
 constexpr uint64_t kReadbackChunk = uint64_t{4} << 20;
-constexpr uint64_t kCopyUnit = uint64_t{64} << 10;  // bytes; the "group" of copies and fills
-constexpr double kCopySeconds = static_cast<double>(kCopyUnit) / 1e9;  // 1 GB/s, until measured
 
 }  // namespace
-
-struct Stream::State {
-    std::unique_ptr<Recorder> recorder;
-    std::shared_ptr<KernelRate> copy_rate = std::make_shared<KernelRate>(kCopySeconds);
-    std::shared_ptr<KernelRate> fill_rate = std::make_shared<KernelRate>(kCopySeconds);
-    StagingRing upload_ring{kUploadRing};
-    Buffer upload_buffer;
-    Buffer readback_buffer;
-
-    Status reserve(Buffer& buffer, uint64_t bytes, std::string_view name, Memory memory);
-    std::optional<uint64_t> stage(std::span<const std::byte> data);
-    template <class Done>
-    void copy(VkBuffer from, uint64_t from_offset, VkBuffer to, uint64_t to_offset, uint64_t bytes,
-              Done done);
-    ~State() { recorder.reset(); }  // waits for the work that uses the buffers
-};
 
 Status Stream::State::reserve(Buffer& buffer, uint64_t bytes, std::string_view name,
                               Memory memory) {
@@ -79,7 +59,7 @@ void Stream::State::copy(VkBuffer from, uint64_t from_offset, VkBuffer to, uint6
         vkCmdCopyBuffer(target.commands, from, to, 1, &region);
         done();
     };
-    recorder->run("copy", copy_rate, group_count(bytes, kCopyUnit), record);
+    recorder->run({"copy", copy_rate, group_count(bytes, kCopyUnit)}, record);
 }
 
 Stream::Stream(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -114,7 +94,7 @@ void Stream::run_bytes(const Kernel& kernel, std::span<const std::byte> args, ui
                            static_cast<uint32_t>(args.size()), push.data());
         vkCmdDispatch(target.commands, static_cast<uint32_t>(count), 1, 1);
     };
-    state_->recorder->run(kernel.name(), kernel.rate(), groups, record);
+    state_->recorder->run({kernel.name(), kernel.rate(), groups}, record);
 }
 
 void Stream::barrier() { state_->recorder->barrier(); }
@@ -127,7 +107,7 @@ void Stream::fill(const Buffer& buffer, uint32_t value, uint64_t offset, uint64_
         vkCmdFillBuffer(target.commands, buffer.get(), offset + start,
                         std::min(count * kCopyUnit, bytes - start), value);
     };
-    state_->recorder->run("fill", state_->fill_rate, group_count(bytes, kCopyUnit), record);
+    state_->recorder->run({"fill", state_->fill_rate, group_count(bytes, kCopyUnit)}, record);
 }
 
 void Stream::copy(const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,

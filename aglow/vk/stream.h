@@ -3,9 +3,12 @@
 #include "aglow/core/result.h"
 #include "aglow/vk/buffer.h"
 #include "aglow/vk/devices.h"
+#include "aglow/vk/graphics_pipeline.h"
 #include "aglow/vk/kernel.h"
+#include "aglow/vk/render_target.h"
 #include "aglow/vk/timing_table.h"
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <span>
@@ -16,13 +19,30 @@
 
 namespace aglow::vk {
 
+/// What one draw covers.
+struct Draw {
+    uint32_t first_vertex = 0, vertex_count = 0;  ///< places in `indices`, if there are any
+    uint32_t first_instance = 0, instance_count = 1;
+    const Buffer* indices = nullptr;  ///< uint32_t[]
+};
+
+/// Where captured vertices go.
+struct Capture {
+    const Buffer& to;
+    uint64_t offset = 0;           ///< bytes, a multiple of 4
+    uint64_t primitive_bytes = 0;  ///< that each primitive of the draw is made to, all the same
+};
+
 /// Work for the device in the order it is given. Members that record cannot fail: the first failure
 /// (device lost, no staging memory) is kept and returned by finish(), and what follows it is
 /// dropped. Work is submitted in pieces that are expected to take less than 100 ms, judged by the
-/// time that each kernel's groups took before; a dispatch that takes longer is split.
+/// time that each kernel's groups (a pipeline's primitives) took before; what takes longer is
+/// split.
 ///
 /// Synchronisation  Work between two barrier() calls may overlap. barrier() makes all writes before
-///                  it visible to all that follows. copies and fills count as work like any other.
+///                  it visible to all that follows. copies and fills count as work like any other,
+///                  and so do draws as to the buffers that they read; clear(), draw() and read()
+///                  of one target happen in their order without barriers.
 /// Thread safety    one thread at a time; several streams may run at once.
 class Stream {
 public:
@@ -38,6 +58,28 @@ public:
         static_assert(std::is_same_v<decltype(args.first_group), uint32_t>);
         run_bytes(kernel, {reinterpret_cast<const std::byte*>(&args), sizeof args}, groups);
     }
+
+    /// Draws into the target, whose format is the pipeline's. `args` is copied. Long draws are
+    /// cut between primitives, or between instances where there are several; a piece is at least
+    /// one instance. gl_VertexIndex and gl_InstanceIndex do not show it, gl_PrimitiveID does.
+    template <class Args>
+    void draw(const GraphicsPipeline& pipeline, const RenderTarget& target, const Args& args,
+              const Draw& draw) {
+        static_assert(std::is_trivially_copyable_v<Args> && sizeof(Args) <= 128);
+        draw_bytes(pipeline, target, std::as_bytes(std::span(&args, 1)), draw);
+    }
+    /// Runs the stages before the fragments, and writes the outputs that they mark with xfb_offset
+    /// in the order of the primitives (transform feedback). The pipeline has no target.
+    template <class Args>
+    void capture(const GraphicsPipeline& pipeline, const Args& args, const Draw& draw,
+                 const Capture& capture) {
+        static_assert(std::is_trivially_copyable_v<Args> && sizeof(Args) <= 128);
+        capture_bytes(pipeline, std::as_bytes(std::span(&args, 1)), draw, capture);
+    }
+    /// Sets all of the target. A target is cleared before it is first drawn into.
+    void clear(const RenderTarget& target, const std::array<float, 4>& color, float depth = 0);
+    /// Writes the colours row by row from the top to the buffer, of several samples their mean.
+    void read(const RenderTarget& target, const Buffer& to, uint64_t to_offset = 0);
 
     void barrier();
     /// Offsets and sizes in bytes, multiples of 4.
@@ -92,6 +134,10 @@ private:
     struct State;
     explicit Stream(std::unique_ptr<State> state);
     void run_bytes(const Kernel& kernel, std::span<const std::byte> args, uint64_t groups);
+    void draw_bytes(const GraphicsPipeline& pipeline, const RenderTarget& target,
+                    std::span<const std::byte> args, const Draw& draw);
+    void capture_bytes(const GraphicsPipeline& pipeline, std::span<const std::byte> args,
+                       const Draw& draw, const Capture& capture);
 
     std::unique_ptr<State> state_;
 };

@@ -34,7 +34,7 @@ HIDDEN = re.compile(
     r'^\s*#\s*include\s+["<](embree|tbb|oneapi|tiny_gltf|Eigen|nlohmann|fmt|vulkan|OpenEXR|Imf)',
     re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]aglow/(\w+)/([^">]+)[">]', re.MULTILINE)
-SOURCES = {".h", ".cpp", ".comp", ".vert", ".frag", ".glsl"}
+SOURCES = {".h", ".cpp", ".glsl", ".comp", ".vert", ".tesc", ".tese", ".geom", ".frag"}
 
 
 def is_public(stage, folders):
