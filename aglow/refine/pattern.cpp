@@ -9,6 +9,11 @@ namespace {
 /// a / n, exact where a is 0 or n, so that corners are corners.
 float fraction(uint32_t a, uint32_t n) { return static_cast<float>(a) / static_cast<float>(n); }
 
+void add_vertex(Pattern& pattern, uint32_t i, uint32_t j, uint32_t n) {
+    pattern.coordinates.push_back({fraction(i, n), fraction(j, n)});
+    pattern.steps.push_back(i + (j << 16));
+}
+
 uint32_t checked(int segments) {
     AG_ASSERT(segments >= 1 && segments <= kMostSegments, "segments in 1..kMostSegments");
     return static_cast<uint32_t>(segments);
@@ -20,8 +25,7 @@ Pattern triangle_pattern(int segments) {
     const uint32_t n = checked(segments);
     Pattern pattern;
     for (uint32_t row = 0; row <= n; ++row)
-        for (uint32_t i = 0; i + row <= n; ++i)
-            pattern.coordinates.push_back({fraction(i, n), fraction(row, n)});
+        for (uint32_t i = 0; i + row <= n; ++i) add_vertex(pattern, i, row, n);
     uint32_t first = 0;
     for (uint32_t row = 0; row < n; ++row) {
         const uint32_t above = first + n - row + 1;
@@ -39,8 +43,7 @@ Pattern quad_pattern(int segments) {
     const uint32_t n = checked(segments);
     Pattern pattern;
     for (uint32_t row = 0; row <= n; ++row)
-        for (uint32_t i = 0; i <= n; ++i)
-            pattern.coordinates.push_back({fraction(i, n), fraction(row, n)});
+        for (uint32_t i = 0; i <= n; ++i) add_vertex(pattern, i, row, n);
     for (uint32_t row = 0; row < n; ++row)
         for (uint32_t i = 0; i < n; ++i) {
             const uint32_t a = row * (n + 1) + i;

@@ -9,6 +9,8 @@ namespace aglow {
 
 /// The finest pattern, segments per edge.
 inline constexpr int kMostSegments = 256;
+/// The finest level of an edge where each has its own.
+inline constexpr int kMostAdaptiveSegments = 128;
 
 /// A refined polygon, stored once and drawn in place of every coarse one: its vertices hold where
 /// in the polygon they are, and control data of the coarse polygon say where that is in space.
@@ -17,6 +19,9 @@ struct Pattern {
     /// [vertex_count] A triangle's barycentrics of corners 1 and 2 (corner 0 has 1 - x - y); of a
     /// quad, x along the edge from corner 0 to 1 and y from 0 to 3.
     std::vector<vec2> coordinates;
+    /// [vertex_count] The same in steps: i + (j << 16) for coordinates (i, j) / segments. What
+    /// triangle_pattern_point() and quad_pattern_point() of aglow/shared/pattern.h take.
+    std::vector<uint32_t> steps;
     std::vector<uvec3> triangles;  ///< [triangle_count] counter-clockwise
 };
 

@@ -22,10 +22,9 @@ struct Tessellation {
     ///                       more than 2^31 refined vertices
     static Result<Tessellation> uniform(const Topology& topology, int segments);
 
-    /// Every edge has a level of its own, 1..kMostAdaptiveSegments, whole or not: between n and
-    /// n + 1 it has n + 1 segments on their way from n to n + 1. Faces have as many as the finest
-    /// of their edges; with `continuous` the next power of two, and inner vertices move likewise,
-    /// so that all positions are continuous in the levels.
+    /// Every edge has a level of its own, 1..kMostAdaptiveSegments; faces have the pattern of their
+    /// finest edge. Discrete levels are numbers of segments, rounded up; continuous ones refine by
+    /// powers of two, between which vertices move: see aglow/shared/pattern.h.
     /// Shapes  levels [edge_count]
     enum class Levels : uint8_t { discrete, continuous };
     static Result<Tessellation> adaptive(const Topology& topology, std::span<const float> levels,
@@ -36,6 +35,7 @@ struct Tessellation {
     std::vector<uvec3> triangles;               ///< counter-clockwise, face after face
     std::vector<uint32_t> face_triangle = {0};  ///< [face + 1] first triangle of it
 
+    Levels levels = Levels::discrete;
     int segments = 0;  ///< of all faces and edges; 0: adaptive
     std::vector<uint32_t>
         edge_first;  ///< [edge + 1] first vertex inside it; the last: inside face 0
@@ -47,6 +47,7 @@ struct Tessellation {
     // Of the topology.
     std::vector<uint32_t> vertex_half;  ///< [vertex]
     std::vector<uint32_t> edge_half;    ///< [edge]
+    std::vector<uint32_t> edge;         ///< [half-edge]
 };
 
 /// For a mesh cut open along seams of attributes: which refined vertex of `whole` each of `cut`
