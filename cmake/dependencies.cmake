@@ -17,3 +17,16 @@ if(NOT AGLOW_INSTALLED)
     find_package(CLI11 REQUIRED)
     find_package(nlohmann_json REQUIRED)
 endif()
+if(NOT AGLOW_INSTALLED AND (AGLOW_BUILD_TESTS OR AGLOW_BUILD_BENCH))
+    # What subdivision is compared with. Debian's OpenSubdivConfig.cmake asks for static libraries
+    # that the package does not hold, so it is found by hand.
+    find_path(OPENSUBDIV_INCLUDE opensubdiv/far/primvarRefiner.h)
+    find_library(OPENSUBDIV_CPU osdCPU)
+    if(NOT OPENSUBDIV_INCLUDE OR NOT OPENSUBDIV_CPU)
+        message(FATAL_ERROR "OpenSubdiv is missing, which tests and benchmarks compare with: "
+            "install libosd-dev, or configure with -DAGLOW_BUILD_TESTS=OFF -DAGLOW_BUILD_BENCH=OFF")
+    endif()
+    add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
+    set_target_properties(OpenSubdiv::osdCPU PROPERTIES
+        IMPORTED_LOCATION ${OPENSUBDIV_CPU} INTERFACE_INCLUDE_DIRECTORIES ${OPENSUBDIV_INCLUDE})
+endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # One stage of the library: every source below aglow/<name> becomes target aglow_<name>, every
-# *_test.cpp there one test program, run by ctest under the stage's name.
+# *_test.cpp there one test program, run by ctest under the stage's name. TEST_LINK is for it alone.
 
 set(AGLOW_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -50,7 +50,7 @@ function(aglow_doctest name)
 endfunction()
 
 function(aglow_stage name)
-    cmake_parse_arguments(STAGE "SHADERS" "" "USES;LINK" ${ARGN})
+    cmake_parse_arguments(STAGE "SHADERS" "" "USES;LINK;TEST_LINK" ${ARGN})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/aglow/${name}/*.cpp)
     set(tests ${sources})
     list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
@@ -67,7 +67,8 @@ function(aglow_stage name)
     aglow_compile_options(aglow_${name})
 
     if(AGLOW_BUILD_TESTS AND tests)
-        aglow_doctest(${name} SOURCES ${tests} LINK aglow_${name} ${STAGE_LINK})
+        aglow_doctest(${name} SOURCES ${tests} LINK aglow_${name} ${STAGE_LINK}
+                      ${STAGE_TEST_LINK})
     endif()
     if(STAGE_SHADERS)
         aglow_shaders(${name})

@@ -139,6 +139,13 @@ void sum_range(const FaceTables& faces, Channels points, OutputChannels to, size
     }
 }
 
+/// Points from the first of them on: differences of these lose fewer digits.
+AGLOW_INLINE void move_to_origin(float* ring, uint32_t rows) {
+    const float origin[kChannels] = {ring[0], ring[1], ring[2]};
+    for (uint32_t r = 0; r < rows; ++r)
+        for (uint32_t c = 0; c < kChannels; ++c) ring[r * kChannels + c] -= origin[c];
+}
+
 struct LimitScratch {
     explicit LimitScratch(const FaceTables& faces) : position(faces), u(faces), v(faces) {}
     Scratch position, u, v;
@@ -168,6 +175,7 @@ void limit_range(const FaceTables& faces, const LimitWeights& limit, Channels po
         const auto f = static_cast<uint32_t>(i);
         gather(ring_of(faces, f), points, ring);
         sum_owned(faces, limit.position.data()->weight, f, ring, position);
+        move_to_origin(ring, faces.rows[faces.face_class[f]]);
         sum_owned(faces, limit.tangent_u.data()->weight, f, ring, u);
         sum_owned(faces, limit.tangent_v.data()->weight, f, ring, v);
         make_normals(u, v, faces.stride);

@@ -66,7 +66,6 @@ Layout split_layout(const Topology& mesh, Scheme scheme, const Layout& coarse) {
 
 std::vector<FaceOutput> face_outputs(const Topology& mesh, const Layout& layout) {
     std::vector<FaceOutput> outputs(mesh.face_count());
-    std::vector<bool> written(mesh.vertex_count(), false);
     for (uint32_t f = 0; f < mesh.face_count(); ++f) {
         FaceOutput& output = outputs[f];
         output.interior = layout.face[f];
@@ -75,8 +74,7 @@ std::vector<FaceOutput> face_outputs(const Topology& mesh, const Layout& layout)
             const uint32_t v = mesh.vertex[h], e = mesh.edge[h];
             output.corner[i] = layout.vertex[v];
             output.edge[i] = layout.edge[e];
-            if (!written[v] && layout.vertex[v] != kNone) output.owned |= 1u << i;
-            written[v] = true;
+            if (mesh.vertex_half[v] == h && layout.vertex[v] != kNone) output.owned |= 1u << i;
             if (mesh.edge_half[e] == h && layout.segments > 1) output.owned |= 16u << i;
         }
     }

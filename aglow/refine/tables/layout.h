@@ -27,8 +27,7 @@ Layout control_layout(const Topology& mesh, Scheme scheme, uint32_t segments);
 /// insides.
 Layout split_layout(const Topology& mesh, Scheme scheme, const Layout& coarse);
 
-/// What every face writes: the corners of which it is the lowest-numbered face, and the edges of
-/// whose half-edges it has the lower-numbered one.
+/// What every face writes: the corners and edges of which it has vertex_half and edge_half.
 std::vector<FaceOutput> face_outputs(const Topology& mesh, const Layout& layout);
 
 }  // namespace aglow::refine
