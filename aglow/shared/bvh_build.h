@@ -15,19 +15,25 @@ AG_NAMESPACE_BEGIN
 
 AG_CONST uint kBvhGroupSize = 64u;
 
-// Clusters that leave a stretch for the one above; two such make up a group of the merging kernel.
+// Clusters that leave a stretch for the one above; the merging kernel has two such at a time.
 // With 1 the tree is that of the Morton codes themselves.
 AG_CONST uint kMergeKeep = 16u;
-AG_CONST uint kMergeGroupSize = 32u;
-AG_CONST uint kMergeRadius = 8u;  // how many neighbours to either side are looked at
+AG_CONST uint kMergeCount = 32u;
+// How many neighbours to either side are looked at. More make no better trees.
+AG_CONST uint kMergeRadius = 4u;
 
 // Nodes of the binary tree over n triangles: inner ones at 0 to n - 2, leaves at n and beyond.
 struct BinaryNode {
     Bounds box;
     uint left;   // of a leaf: its triangle
-    uint right;  // of a leaf: unused
+    uint right;  // of a leaf: half_area() of its box, as a float
 };
 AG_BUFFER_OF(BinaryNode);
+
+// Costs are found in waves: the first has the nodes over two leaves, each further one the nodes
+// whose second child was in the one before. Few nodes are left for the last wave, which climbs from
+// each of its nodes as far as it gets.
+AG_CONST uint kCostWaves = 12u;
 
 AG_CONST uint kNoNode = 0xffffffffu;
 AG_CONST uint kRightChild = 0x80000000u;  // in a parent's index: the child is its right one
@@ -52,9 +58,10 @@ struct BvhCounters {
     uvec3 lower, upper;  // of the corners of usable triangles, as ordered_bits()
     uint usable_count;   // triangles in the tree
     uint stretch_count;
-    uint root;        // of the binary tree
-    uint node_count;  // of the wide tree
-    uint depth;       // of the wide tree; an upper bound
+    uint root;                    // of the binary tree
+    uint node_count;              // of the wide tree
+    uint depth;                   // of the wide tree; an upper bound
+    uint ready[kCostWaves + 1u];  // nodes in each wave of the cost kernel
 };
 AG_BUFFER_OF(BvhCounters);
 
@@ -64,6 +71,8 @@ struct BvhBuildArgs {
     uint triangle_count;
     uint merge_keep;   // kMergeKeep or 1
     uint cost_metric;  // kCost...
+    uint wave;         // of the cost kernel
+    uint stride;       // its invocations
     TrianglePtr triangles;
     BvhCountersPtr counters;
     uintPtr keys;             // [n] Morton codes
@@ -75,7 +84,8 @@ struct BvhBuildArgs {
     ClusterPtr clusters;      // [n]
     CollapseCostPtr costs;    // [n]
     CollapseChoicePtr links;  // [n]
-    uintPtr flags;            // [n] 1: node becomes a wide node
+    uintPtr flags;            // [n] 1: node becomes a wide node; before, two halves for the nodes
+                              // of this wave and of the next
 };
 
 // A float as an integer of the same order.
@@ -132,12 +142,12 @@ AG_FN bool is_nearer(KeyDistance a, KeyDistance b) {
 // the same for (i, j) and (i, k): the best pair of all is always each other's best, and clusters
 // that all coincide pair up by twos.
 AG_FN uint merge_key(Bounds a, Bounds b, uint i, uint j) {
-    return (float_bits(half_area(united(a, b))) & ~(kMergeGroupSize - 1u)) | (i ^ j);
+    return (float_bits(half_area(united(a, b))) & ~(kMergeCount - 1u)) | (i ^ j);
 }
 
 AG_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(aglow::shared::BinaryNode) == 32);
-static_assert(sizeof(aglow::shared::BvhBuildArgs) == 112);
+static_assert(sizeof(aglow::shared::BvhBuildArgs) == 120);
 #endif
 #endif

@@ -111,7 +111,8 @@ Status Bvh::build_tree(Stream& stream, TriangleSpan triangles) {
     builder.emit(stream, {.header = header_.address(),
                           .boxes = boxes_of(links_),
                           .parents = links_.address() + parents_offset(links_),
-                          .node_count = node_count_});
+                          .node_count = node_count_,
+                          .triangle_count = triangle_count_});
     return {};
 }
 
@@ -119,18 +120,11 @@ Status Bvh::reserve_tree(const BvhCounters& counters) {
     const uint64_t nodes = counters.node_count * sizeof(shared::BvhNode);
     const uint64_t triangles = counters.usable_count * sizeof(shared::BvhTriangle);
     const uint64_t links = counters.node_count * kLinkBytes;
-    if (nodes <= nodes_.size() && triangles <= triangles_.size() && links <= links_.size())
-        return {};
-    // Trees over the same triangles in another pose have a few nodes more or less.
-    auto with_room = [](uint64_t bytes) { return bytes + bytes / 16 / 4 * 4; };
-    nodes_ = {};
-    triangles_ = {};
-    links_ = {};
     auto reserve = [&]() -> Status {
         const Gpu& gpu = builder_->gpu();
-        AG_TRY(nodes_, gpu->make_buffer(with_room(nodes), "nodes of a BVH"));
-        AG_TRY(triangles_, gpu->make_buffer(triangles, "triangles of a BVH"));
-        AG_TRY(links_, gpu->make_buffer(with_room(links), "links of a BVH"));
+        AG_CHECK(gpu->grow(nodes_, nodes, "nodes of a BVH"));
+        AG_CHECK(gpu->grow(triangles_, triangles, "triangles of a BVH"));
+        AG_CHECK(gpu->grow(links_, links, "links of a BVH"));
         return {};
     };
     auto reserved = reserve();

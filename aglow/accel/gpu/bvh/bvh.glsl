@@ -5,18 +5,10 @@
 // children to visit later are one entry on the stack, so the stack is as long as the tree is deep.
 #ifndef AGLOW_ACCEL_GPU_BVH_GLSL
 #define AGLOW_ACCEL_GPU_BVH_GLSL
-#extension GL_ARB_gpu_shader_int64 : require
 #extension GL_EXT_buffer_reference_uvec2 : require
+#include "aglow/accel/gpu/bvh/bvh_rows.glsl"
 #include "aglow/shared/bvh.h"
 #include "aglow/shared/triangle.h"
-
-// The same memory in rows of 16 bytes, for wide loads; of two integers each, because lavapipe loads
-// component by component, and spends most of a ray's time there.
-layout(buffer_reference, buffer_reference_align = 16, scalar) readonly buffer BvhRowPtr {
-    u64vec2 at[];
-};
-
-uvec4 row_words(u64vec2 row) { return uvec4(unpackUint2x32(row.x), unpackUint2x32(row.y)); }
 
 // A ray made ready for boxes. `t` of a box counts in lengths of the direction's largest component.
 struct BvhRay {

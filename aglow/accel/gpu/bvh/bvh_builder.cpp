@@ -10,12 +10,14 @@
 #include "aglow/accel/gpu/bvh/bvh_merge.comp.h"
 #include "aglow/accel/gpu/bvh/bvh_morton.comp.h"
 #include "aglow/accel/gpu/bvh/bvh_move.comp.h"
+#include "aglow/accel/gpu/bvh/bvh_ready.comp.h"
 #include "aglow/accel/gpu/bvh/bvh_refit.comp.h"
 #include "aglow/accel/gpu/bvh/bvh_slots.comp.h"
 #include "aglow/vk/device.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -85,11 +87,16 @@ BvhBuilder::BvhBuilder(Gpu gpu, Kernels kernels, vk::RadixSort sort, vk::Compact
 
 Result<std::shared_ptr<BvhBuilder>> BvhBuilder::create(const Gpu& gpu) {
     const std::array climbing = {climbing_group_size(gpu)};
+    const std::array merging = {gpu->subgroup_size()};
     AG_TRY(auto bounds, Kernel::create(gpu, "bvh: bounds", shaders::bvh_bounds_comp));
     AG_TRY(auto morton, Kernel::create(gpu, "bvh: codes", shaders::bvh_morton_comp));
     AG_TRY(auto leaves, Kernel::create(gpu, "bvh: leaves", shaders::bvh_leaves_comp));
-    AG_TRY(auto merge, Kernel::create(gpu, "bvh: merge", shaders::bvh_merge_comp));
-    AG_TRY(auto cost, Kernel::create(gpu, "bvh: cost", shaders::bvh_cost_comp, climbing));
+    AG_TRY(auto merge, Kernel::create(gpu, "bvh: merge", shaders::bvh_merge_comp, merging));
+    AG_TRY(auto ready, Kernel::create(gpu, "bvh: ready", shaders::bvh_ready_comp));
+    AG_TRY(auto cost, Kernel::create(gpu, "bvh: cost", shaders::bvh_cost_comp,
+                                     std::array{shared::kBvhGroupSize, 0u}));
+    AG_TRY(auto last_cost, Kernel::create(gpu, "bvh: last costs", shaders::bvh_cost_comp,
+                                          std::array{climbing_group_size(gpu), 1u}));
     AG_TRY(auto flags, Kernel::create(gpu, "bvh: flags", shaders::bvh_flags_comp));
     AG_TRY(auto slots, Kernel::create(gpu, "bvh: slots", shaders::bvh_slots_comp));
     AG_TRY(auto index, Kernel::create(gpu, "bvh: index", shaders::bvh_index_comp));
@@ -99,9 +106,10 @@ Result<std::shared_ptr<BvhBuilder>> BvhBuilder::create(const Gpu& gpu) {
     AG_TRY(auto sort, vk::RadixSort::create(gpu));
     AG_TRY(auto compact, vk::Compact::create(gpu));
     AG_TRY(auto scan, vk::Scan::create(gpu));
-    Kernels kernels{std::move(bounds), std::move(morton), std::move(leaves), std::move(merge),
-                    std::move(cost),   std::move(flags),  std::move(slots),  std::move(index),
-                    std::move(emit),   std::move(move),   std::move(refit)};
+    Kernels kernels{std::move(bounds), std::move(morton), std::move(leaves),    std::move(merge),
+                    std::move(ready),  std::move(cost),   std::move(last_cost), std::move(flags),
+                    std::move(slots),  std::move(index),  std::move(emit),      std::move(move),
+                    std::move(refit)};
     return std::shared_ptr<BvhBuilder>(new BvhBuilder(gpu, std::move(kernels), std::move(sort),
                                                       std::move(compact), std::move(scan)));
 }
@@ -114,13 +122,12 @@ Status BvhBuilder::reserve(Stream& stream, TriangleSpan triangles) {
     if (triangles.count > reserved_) {
         reserved_ = 0;
         AG_CHECK(stream.finish());
-        scratch_ = {};
-        auto made = stream.make_buffer(bytes, "scratch memory of a BVH");
-        if (!made && made.error().code == Errc::out_of_memory)
+        const Status grown = gpu_->grow(scratch_, bytes, "scratch memory of a BVH");
+        if (!grown && grown.error().code == Errc::out_of_memory)
             return fail(Errc::out_of_memory,
                         fmt::format("building a BVH over {} triangles takes {} bytes: {}",
-                                    triangles.count, bytes, made.error().message));
-        AG_TRY(scratch_, std::move(made));
+                                    triangles.count, bytes, grown.error().message));
+        AG_CHECK(grown);
         AG_CHECK(sort_.reserve(triangles.count));
         AG_CHECK(compact_.reserve(triangles.count));
         AG_CHECK(scan_.reserve(triangles.count));
@@ -163,15 +170,31 @@ void BvhBuilder::cluster(Stream& stream, uint32_t keep) {
     stream.barrier();
 }
 
+void BvhBuilder::find_costs(Stream& stream) {
+    const uint64_t n = args_.triangle_count;
+    stream.fill(scratch_, 0, offset(args_.counters) + offsetof(BvhCounters, ready),
+                sizeof(BvhCounters::ready));
+    stream.barrier();
+    stream.run(kernels_.ready, args_, groups_of(n));
+    stream.barrier();
+    for (args_.wave = 0; args_.wave <= shared::kCostWaves; ++args_.wave) {
+        // A node of the k-th wave has k + 2 leaves at least. How many there are only the device
+        // knows, so an invocation takes several and there are a quarter of what could be needed.
+        const bool is_last = args_.wave == shared::kCostWaves;
+        const uint32_t size = is_last ? climbing_group_size(gpu_) : shared::kBvhGroupSize;
+        const uint64_t groups = n / (args_.wave + 2) / 4 / size + 1;
+        args_.stride = static_cast<uint32_t>(groups * size);
+        stream.run(is_last ? kernels_.last_cost : kernels_.cost, args_, groups);
+        stream.barrier();
+    }
+}
+
 Result<BvhCounters> BvhBuilder::collapse(Stream& stream, uint32_t metric) {
     const uint64_t n = args_.triangle_count;
     args_.cost_metric = metric;
     {
         const Stream::Scope scope(stream, "collapse");
-        stream.fill(scratch_, 0, offset(args_.arrivals), 4 * n);
-        stream.barrier();
-        stream.run(kernels_.cost, args_, group_count(n, climbing_group_size(gpu_)));
-        stream.barrier();
+        find_costs(stream);
         stream.run(kernels_.flags, args_, groups_of(n));
         stream.barrier();
         compact_.record(stream, args_.flags, n, list_,
@@ -218,11 +241,25 @@ void BvhBuilder::emit(Stream& stream, const Target& target) const {
     stream.run(kernels_.index, args, groups);
     stream.barrier();
     stream.run(kernels_.emit, args, groups);
+    stream.barrier();
+    move(stream, {.first_group = 0,
+                  .triangle_count = target.triangle_count,
+                  .node_count = target.node_count,
+                  .pad = 0,
+                  .triangles = args_.triangles,
+                  .header = target.header,
+                  .boxes = target.boxes,
+                  .parents = target.parents,
+                  .arrivals = 0});
+}
+
+void BvhBuilder::move(Stream& stream, const shared::BvhRefitArgs& args) const {
+    stream.run(kernels_.move, args, groups_of(args.triangle_count));
 }
 
 void BvhBuilder::refit(Stream& stream, shared::BvhRefitArgs args) const {
     const Stream::Scope scope(stream, "refit");
-    stream.run(kernels_.move, args, groups_of(args.triangle_count));
+    move(stream, args);
     stream.barrier();
     stream.run(kernels_.refit, args, group_count(args.node_count, climbing_group_size(gpu_)));
 }

@@ -33,16 +33,19 @@ public:
     /// Where a tree goes.
     struct Target {
         uint64_t header = 0, boxes = 0, parents = 0;
-        uint32_t node_count = 0;
+        uint32_t node_count = 0, triangle_count = 0;
     };
     void emit(vk::Stream& stream, const Target& target) const;
     void refit(vk::Stream& stream, shared::BvhRefitArgs args) const;
 
 private:
     struct Kernels {
-        vk::Kernel bounds, morton, leaves, merge, cost, flags, slots, index, emit, move, refit;
+        vk::Kernel bounds, morton, leaves, merge, ready, cost, last_cost, flags, slots, index, emit,
+            move, refit;
     };
     BvhBuilder(Gpu gpu, Kernels kernels, vk::RadixSort sort, vk::Compact compact, vk::Scan scan);
+    void find_costs(vk::Stream& stream);
+    void move(vk::Stream& stream, const shared::BvhRefitArgs& args) const;
     uint64_t offset(uint64_t address) const { return address - scratch_.address(); }
 
     Gpu gpu_;

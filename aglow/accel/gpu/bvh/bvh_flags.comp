@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which binary nodes become wide ones: hands the root's share down the path to each. Climbing from
-// the node needs no order among invocations; it ends where the shares above no longer matter.
+// the node needs no order among invocations; it ends where the share is the same whatever those above are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"

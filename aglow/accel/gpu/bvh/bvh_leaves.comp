@@ -19,7 +19,7 @@ void main() {
     BinaryNode node;
     node.box = triangle_bounds(args.triangles.at[triangle]);
     node.left = triangle;
-    node.right = kNoNode;
+    node.right = floatBitsToUint(half_area(node.box));
     args.nodes.at[args.triangle_count + leaf] = node;
     if (count == 1u) args.counters.at[0].root = args.triangle_count;
 

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
+#include "aglow/accel/gpu/bvh/bvh_rows.glsl"
 #include "aglow/shared/bvh_emit.h"
 
 layout(local_size_x = kBvhGroupSize) in;
@@ -24,12 +25,12 @@ void find_children(uint node) {
             ++k;
             continue;
         }
-        BinaryNode pair = args.binary.at[found[k]];
+        uvec2 pair = children_of(args.binary, found[k]);
         CollapseChoice choice = args.links.at[found[k]];
         uint s = share[k] == 8u ? 1u : share[k];
-        found[k] = pair.left;
+        found[k] = pair.x;
         share[k] = share_of(choice.left, s);
-        found[found_count] = pair.right;
+        found[found_count] = pair.y;
         share[found_count] = share_of(choice.right, s);
         ++found_count;
     }
@@ -37,8 +38,8 @@ void find_children(uint node) {
 
 uint leaf_size(uint node) {
     if (node >= args.triangle_count) return 1u;
-    BinaryNode pair = args.binary.at[node];
-    return pair.left >= args.triangle_count && pair.right >= args.triangle_count ? 2u : 3u;
+    uvec2 pair = children_of(args.binary, node);
+    return min(pair.x, pair.y) >= args.triangle_count ? 2u : 3u;
 }
 
 void main() {
@@ -47,7 +48,7 @@ void main() {
 
     uint node = args.list.at[i];
     find_children(node);
-    Bounds box = args.binary.at[node].box;
+    Bounds box = box_of(args.binary, node);
     vec3 middle = box.lower * 0.5f + box.upper * 0.5f;
 
     SlotNodes slots;
@@ -57,11 +58,11 @@ void main() {
     uint triangles = 0u;
     for (uint k = 0u; k < found_count; ++k) {
         uint child = found[k];
-        Bounds child_box = args.binary.at[child].box;
+        Bounds child_box = box_of(args.binary, child);
         vec3 offset = child_box.lower * 0.5f + child_box.upper * 0.5f - middle;
         uint best = 0u;
         float best_fit = 0.0f;
-        for (uint s = 0u; s < 8u; ++s) {
+        [[unroll]] for (uint s = 0u; s < 8u; ++s) {
             float fit = slot_fit(offset, s);
             bool is_free = ((free >> s) & 1u) != 0u;
             bool is_better = is_free && (((free >> best) & 1u) == 0u || fit > best_fit);

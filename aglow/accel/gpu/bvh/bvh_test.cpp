@@ -4,6 +4,7 @@
 #include "aglow/accel/gpu/testing/bvh_fixture.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -263,10 +264,11 @@ TEST_CASE("after a refit rays hit what moved, wherever it went") {
     Triangles broken = rest;
     for (size_t i = 0; i < broken.size(); i += 3) broken[i].b.x = kNan;
     const Triangles point(rest.size(), shared::Triangle{});
-    for (const Triangles& pose : {waved, scattered, broken, point, rest}) {
-        fixture.refit(pose);
+    const std::array<const Triangles*, 5> poses = {&waved, &scattered, &broken, &point, &rest};
+    for (const Triangles* pose : poses) {
+        fixture.refit(*pose);
         CHECK(fixture.bvh->stats().cells == cells);
-        check_hits(fixture, pose, rays_at(&pose == &point ? rest : pose, 2000));
+        check_hits(fixture, *pose, rays_at(pose == &point ? rest : *pose, 2000));
     }
 
     // Triangles that were left out of the tree take part once they are finite.
