@@ -139,7 +139,8 @@ Status Device::open_device(const DeviceOptions& options) {
         set_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
     }
-    pool_ = std::make_unique<MemoryPool>(physical_.handle, device_, physical_.max_allocation_bytes);
+    pool_ = std::make_unique<MemoryPool>(physical_.handle, device_, physical_.max_allocation_bytes,
+                                         options.faults.memory_bytes);
     faults_ = options.faults;
     return make_queue();
 }
@@ -202,6 +203,7 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
     }
     reap();
     if (bytes > physical_.max_allocation_bytes) return pool_->too_large(bytes, name);
+    const std::string doing = fmt::format("making buffer \"{}\" of {} bytes", name, bytes);
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = bytes;
@@ -212,7 +214,7 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
         info.usage |= VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT;
     VkBuffer handle = VK_NULL_HANDLE;
     VkResult result = vkCreateBuffer(device_, &info, nullptr, &handle);
-    if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
+    if (result != VK_SUCCESS) return failure(result, doing);
     auto owned = std::make_shared<Buffer::Owned>();
     owned->pool = pool_.get();
     owned->buffer = BufferHandle(device_, handle);
@@ -221,7 +223,7 @@ Result<Buffer> Device::make_buffer(uint64_t bytes, std::string_view name, Memory
     AG_TRY(owned->allocation, pool_->allocate(needs, memory, name));
     const Allocation& place = owned->allocation;
     result = vkBindBufferMemory(device_, handle, place.memory, place.offset);
-    if (result != VK_SUCCESS) return failure(result, fmt::format("making buffer \"{}\"", name));
+    if (result != VK_SUCCESS) return failure(result, doing);
     set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle), name);
 
     Buffer buffer;

@@ -21,8 +21,9 @@ class Instance;
 
 /// Failures that tests ask for. Counts start at 0; -1: never.
 struct Faults {
-    int fail_allocation = -1;  ///< this buffer or image cannot be had: out of memory
-    int lose_at_submit = -1;   ///< this submit and all that follow: the device is lost
+    int fail_allocation = -1;            ///< this buffer or image cannot be had: out of memory
+    int lose_at_submit = -1;             ///< this submit and all that follow: the device is lost
+    uint64_t memory_bytes = UINT64_MAX;  ///< all buffers and images together have no more than this
 };
 
 struct DeviceOptions {

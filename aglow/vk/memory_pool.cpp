@@ -57,16 +57,22 @@ struct MemoryBlock {
     FreeList ranges;
 };
 
-MemoryPool::MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_allocation_bytes)
-    : device_(device), max_allocation_bytes_(max_allocation_bytes) {
+MemoryPool::MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_allocation_bytes,
+                       uint64_t most_bytes)
+    : device_(device), max_allocation_bytes_(max_allocation_bytes), most_bytes_(most_bytes) {
     vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
 }
 
 MemoryPool::~MemoryPool() { AG_ASSERT(bytes_in_use_ == 0, "buffers die before their device"); }
 
+uint64_t MemoryPool::heap_bytes(uint32_t type) const {
+    const uint32_t heap = properties_.memoryTypes[type].heapIndex;
+    return std::min(properties_.memoryHeaps[heap].size, most_bytes_);
+}
+
 tl::unexpected<Error> MemoryPool::full(const Request& request, uint32_t type) const {
     const VkMemoryType& memory = properties_.memoryTypes[type];
-    uint64_t heap = properties_.memoryHeaps[memory.heapIndex].size;
+    uint64_t heap = heap_bytes(type);
     return fail(
         Errc::out_of_memory,
         fmt::format("{0} \"{1}\" needs {2} bytes of {3} memory; {4} of {5} are in use, and "
@@ -84,9 +90,7 @@ tl::unexpected<Error> MemoryPool::too_large(uint64_t bytes, std::string_view nam
 
 Result<MemoryBlock*> MemoryPool::add_block(uint64_t bytes, uint32_t type, const Request& request) {
     const VkMemoryType& memory_type = properties_.memoryTypes[type];
-    if (bytes > max_allocation_bytes_ ||
-        bytes > properties_.memoryHeaps[memory_type.heapIndex].size)
-        return full(request, type);
+    if (bytes > max_allocation_bytes_ || bytes > heap_bytes(type)) return full(request, type);
     VkMemoryAllocateFlagsInfo flags{};
     flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
@@ -113,8 +117,9 @@ Result<Allocation> MemoryPool::allocate(const VkMemoryRequirements& needs, Memor
     uint64_t alignment = std::max(needs.alignment, kGrain);
     std::lock_guard lock(mutex_);
     uint32_t type = choose_type(properties_, needs.memoryTypeBits, memory);
-    uint64_t heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
-    uint64_t block_bytes = std::min(kBlockBytes, heap / 8);
+    if (bytes_in_use_ > most_bytes_ || bytes > most_bytes_ - bytes_in_use_)
+        return full({needs.size, name, kind}, type);
+    uint64_t block_bytes = std::min(kBlockBytes, heap_bytes(type) / 8);
     bool shared = bytes <= block_bytes / 4;
 
     MemoryBlock* block = nullptr;

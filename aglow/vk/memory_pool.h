@@ -33,7 +33,9 @@ struct Allocation {
 /// Thread safety  all members may be called from any thread.
 class MemoryPool {
 public:
-    MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_allocation_bytes);
+    /// One allocation has `max_allocation_bytes` at most, and all together have `most_bytes`.
+    MemoryPool(VkPhysicalDevice physical, VkDevice device, uint64_t max_allocation_bytes,
+               uint64_t most_bytes = UINT64_MAX);
     ~MemoryPool();
 
     /// `kind` is what the memory is for, "buffer" or "image".
@@ -54,11 +56,12 @@ private:
         std::string_view name, kind;
     };
     tl::unexpected<Error> full(const Request& request, uint32_t type) const;
+    uint64_t heap_bytes(uint32_t type) const;
     Result<MemoryBlock*> add_block(uint64_t bytes, uint32_t type, const Request& request);
 
     VkDevice device_;
     VkPhysicalDeviceMemoryProperties properties_;
-    uint64_t max_allocation_bytes_;
+    uint64_t max_allocation_bytes_, most_bytes_;
     mutable std::mutex mutex_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     uint64_t bytes_in_use_ = 0;

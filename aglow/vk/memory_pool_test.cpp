@@ -87,6 +87,25 @@ TEST_CASE("memory for the host is mapped, each allocation where it lies") {
     pool.free(*b);
 }
 
+TEST_CASE("a limit holds for all allocations together, and is told as what there is") {
+    TestDevice device;
+    if (!device) return;
+    MemoryPool pool(device->physical().handle, device->get(),
+                    device->physical().max_allocation_bytes, 8 * kMiB);
+    auto first = allocate(pool, 5 * kMiB), refused = allocate(pool, 3 * kMiB + 1);
+    REQUIRE(first);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == Errc::out_of_memory);
+    CHECK_MESSAGE(refused.error().message.find("needs 3145729 bytes of GPU memory; 5242880 of "
+                                               "8388608 are in use") != std::string::npos,
+                  refused.error().message);
+    auto second = allocate(pool, 3 * kMiB);
+    REQUIRE(second);
+    CHECK(pool.bytes_in_use() == 8 * kMiB);
+    pool.free(*first);
+    pool.free(*second);
+}
+
 TEST_CASE("what does not fit says what was asked for, what is used and what there is") {
     TestDevice device;
     if (!device) return;

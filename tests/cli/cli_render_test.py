@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Pictures: what `aglow render` draws, on the CPU and on a GPU, and what `aglow bench` measures."""
+import resource
 import signal
 import subprocess
 import time
 
 import harness
-from harness import AGLOW
+from harness import AGLOW, aglow
 
 
 class Pictures(harness.AglowTest):
@@ -64,6 +65,20 @@ class Pictures(harness.AglowTest):
             self.assertEqual((report["device"], report["accel"]), (gpus[0], accel))
             self.assertEqual(report["rays_by_kind"], cpu["rays_by_kind"])
             self.run_aglow("compare", f"{accel}.exr", "cpu.exr", "--max-rmse", "1%")
+
+    def test_a_picture_that_fits_nowhere_says_what_it_needs(self):
+        if not any("llvmpipe" in gpu for gpu in self.gpus()):
+            self.skipTest("there is no Vulkan driver")
+        def little_memory():
+            resource.setrlimit(resource.RLIMIT_AS, (5 << 29, 5 << 29))
+        done = aglow("render", "lit.glb", "-o", "huge.png", "--size", "16384x16384", "--samples",
+                     "1", "--threads", "1", "--device", "gpu:llvmpipe", cwd=self.dir,
+                     limit=little_memory)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn(f'buffer "image" needs {16384 * 16384 * 12} bytes', done.stderr)
+        self.assertIn("the CPU goes on", done.stderr)
+        self.assertIn("not enough memory for 16384 x 16384 pixels", done.stderr)
+        self.assertFalse((self.dir / "huge.png").exists())
 
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",

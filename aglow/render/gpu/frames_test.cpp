@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <regex>
 #include <string>
 
 using namespace aglow;
@@ -276,6 +277,41 @@ TEST_CASE("a GPU counts the rays of each kind as the CPU does") {
             CHECK(frame.rays.total() == (reflections > 0 ? 4 : 3) * hits);
         }
     }
+}
+
+TEST_CASE("what does not fit on a GPU says what it needs and what there is") {
+    constexpr uint64_t kMiB = uint64_t{1} << 20;
+    const auto says = [](const Error& error, uint64_t memory) {
+        CAPTURE(error.message);
+        CHECK(error.code == Errc::out_of_memory);
+        std::smatch found;
+        const std::regex wanted(
+            "buffer \"(.+)\" needs (\\d+) bytes of \\w+ memory; (\\d+) of (\\d+) are in use");
+        REQUIRE(std::regex_search(error.message, found, wanted));
+        CHECK(std::stoull(found[4]) == memory);
+        CHECK(std::stoull(found[2]) > memory - std::stoull(found[3]));
+        return std::pair{found[1].str(), std::stoull(found[2])};
+    };
+    vk::DeviceOptions options;
+    options.faults.memory_bytes = kMiB;
+    {
+        vk::TestDevice device(options);
+        if (!device) return;
+        const Scene scene = builtin_scene("stress:40000").value();
+        const auto renderer = make_gpu_frame_renderer(device.gpu(), {scene}, Accel::bvh);
+        REQUIRE_FALSE(renderer);
+        says(renderer.error(), kMiB);
+    }
+    options.faults.memory_bytes = 128 * kMiB;
+    vk::TestDevice device(options);
+    Quads quads;
+    quads.floor(diffuse({1, 1, 1}), 2);
+    const auto renderer = demand(make_gpu_frame_renderer(device.gpu(), {quads.scene}, Accel::grid));
+    const auto frame = renderer->draw(0, from_above(3, 1, 4096), {});
+    REQUIRE_FALSE(frame);
+    const auto [buffer, bytes] = says(frame.error(), 128 * kMiB);
+    CHECK(buffer == "image");
+    CHECK(bytes == 4096 * 4096 * sizeof(vec3));
 }
 
 TEST_CASE("a frame comes out the same again, and whatever was drawn before it") {
