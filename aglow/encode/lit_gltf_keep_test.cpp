@@ -142,6 +142,34 @@ TEST_CASE("attributes of every type, sparse morph targets and extras survive the
     }
 }
 
+TEST_CASE("creases and corners in extras name the same places after the split") {
+    const TemporaryFolder folder;
+    const fs::path in = save_everything(folder.path, [](Json& json) {
+        json["meshes"][0]["primitives"][0]["extras"] = {
+            {"creases", {{3, 1, 2.5}, {2, 0}, "mine", {0, 77}}}, {"corners", {{2, 1}, {3}}}};
+    });
+    const Scene before = load(in);
+    FakeBake bake(before);
+    written(bake, folder.path / "out.glb");
+    const Scene after = load(folder.path / "out.glb");
+    const Primitive& old_p = before.meshes[0].primitives[0];
+    const Primitive& new_p = after.meshes[0].primitives[0];
+    REQUIRE(new_p.positions.size() == 6);
+    REQUIRE(old_p.creases.size() == 2);
+    REQUIRE(new_p.creases.size() == 2);
+    for (size_t i = 0; i < 2; ++i) {
+        CHECK(new_p.positions[new_p.creases[i].a] == old_p.positions[old_p.creases[i].a]);
+        CHECK(new_p.positions[new_p.creases[i].b] == old_p.positions[old_p.creases[i].b]);
+        CHECK(new_p.creases[i].sharpness == old_p.creases[i].sharpness);
+        CHECK(new_p.positions[new_p.corners[i].vertex] == old_p.positions[old_p.corners[i].vertex]);
+        CHECK(new_p.corners[i].sharpness == old_p.corners[i].sharpness);
+    }
+    const Json json = Json::parse(after.source->json);
+    const Json& creases = json["meshes"][0]["primitives"][0]["extras"]["creases"];
+    CHECK(creases[2] == "mine");
+    CHECK(creases.size() == 3);  // a vertex that there never was has no place after it
+}
+
 TEST_CASE("the light takes another UV set where a texture reads the second one") {
     const TemporaryFolder folder;
     const fs::path in = save_everything(folder.path, [](Json& json) {

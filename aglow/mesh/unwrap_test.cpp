@@ -170,6 +170,9 @@ TEST_CASE("vertices split at chart borders keep all they had") {
     p.targets.resize(1);
     for (uint32_t v = 0; v < n; ++v) {
         p.colors.push_back({float(v), 0, 0, 1});
+        p.sharpness.push_back(float(v));
+        p.tension.push_back(float(2 * v));
+        p.bias.push_back(float(3 * v));
         for (uint32_t i = 0; i < 4; ++i) {
             p.joints.push_back(4 * v + i);
             p.weights.push_back(float(4 * v + i));
@@ -190,6 +193,9 @@ TEST_CASE("vertices split at chart borders keep all they had") {
         REQUIRE(from < n);
         CHECK(split.positions[v] == p.positions[from]);
         CHECK(split.colors[v] == p.colors[from]);
+        CHECK(split.sharpness[v] == p.sharpness[from]);
+        CHECK(split.tension[v] == p.tension[from]);
+        CHECK(split.bias[v] == p.bias[from]);
         CHECK(split.joints[4 * v + 3] == 4 * from + 3);
         CHECK(split.weights[4 * v + 2] == float(4 * from + 2));
         CHECK(split.targets[0].positions[v].y == float(from));

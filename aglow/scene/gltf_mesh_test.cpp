@@ -199,3 +199,28 @@ TEST_CASE("a skin without joints in the mesh is left out, a joint beyond the ski
     CHECK(primitive.joints[11] == 0);
     CHECK(two_joints->skins[0].inverse_bind.size() == 2);
 }
+
+TEST_CASE("scalar tags are read, and follow their vertices into flat triangles") {
+    const std::vector<Attribute> attributes = {
+        {"POSITION", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, 3},
+        {"_SHARPNESS", {0, 0.25f, 0.5f, 1}, 1},
+        {"_TENSION", {4, 5, 6, 7}, 1},
+        {"_BIAS", {-1, -2, -3, -4}, 1}};
+    const auto scene = load_primitive(attributes, R"(, "mode": 5)");
+    REQUIRE(scene.has_value());
+    const Primitive& p = scene->meshes[0].primitives[0];
+    CHECK(p.sharpness == std::vector<float>{0, 0.25f, 0.5f, 0.25f, 1, 0.5f});
+    CHECK(p.tension == std::vector<float>{4, 5, 6, 5, 7, 6});
+    CHECK(p.bias == std::vector<float>{-1, -2, -3, -2, -4, -3});
+}
+
+TEST_CASE("an attribute that only shares its name with a scalar tag is left out with a warning") {
+    const auto scene =
+        load_primitive({{"POSITION", kRightTriangle, 3}, {"_BIAS", {1, 2, 3, 4, 5, 6}, 2}});
+    REQUIRE(scene.has_value());
+    CHECK(scene->meshes[0].primitives[0].bias.empty());
+    REQUIRE(scene->warnings.size() == 1);
+    CHECK(scene->warnings[0] ==
+          "mesh 0 primitive 0: _BIAS is left out: mesh 0 primitive 0: _BIAS (accessor 1) must be "
+          "of type SCALAR");
+}

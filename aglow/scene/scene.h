@@ -69,6 +69,21 @@ struct MorphTarget {
     std::vector<vec3> normals;    ///< [vertex_count] displacements, or empty
 };
 
+/// An edge, by its ends, that subdivision keeps sharp for `sharpness` levels; 10 and above for
+/// ever.
+struct SharpEdge {
+    uint32_t a = 0, b = 0;  ///< vertices of the primitive, in any order
+    float sharpness = 10;
+    bool operator==(const SharpEdge&) const = default;
+};
+
+/// Likewise a vertex.
+struct SharpVertex {
+    uint32_t vertex = 0;
+    float sharpness = 10;
+    bool operator==(const SharpVertex&) const = default;
+};
+
 /// No real surface reflects more; light would not die out. Surfaces clamp their diffuse reflectance
 /// to it, and loaders warn of it.
 inline constexpr float kMaxReflectance = 0.98f;
@@ -88,6 +103,10 @@ struct Primitive {
     std::vector<float> weights;  ///< [vertex_count * influences], or empty
     int influences = 0;          ///< joints per vertex: 4 for each JOINTS_n set
     std::vector<MorphTarget> targets;
+    /// [vertex_count] _SHARPNESS, _TENSION and _BIAS, the scalar tags of curved triangles; or empty
+    std::vector<float> sharpness, tension, bias;
+    std::vector<SharpEdge> creases;    ///< tagged in the file: docs/formats/creases.md
+    std::vector<SharpVertex> corners;  ///< likewise
 
     /// Vertex of the glTF primitive that each vertex is a copy of; unwrapping and flat shading
     /// split vertices. Empty: vertex i is the file's vertex i.

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -151,6 +153,13 @@ private:
         if (!primitive.colors.empty())
             attributes["COLOR_0"] = add_accessor<vec4>(primitive.colors, "VEC4", kFloat, kVertices);
         add_influences(primitive, attributes);
+        const auto add_tag = [&](const char* name, const std::vector<float>& tag) {
+            if (!tag.empty())
+                attributes[name] = add_accessor<float>(tag, "SCALAR", kFloat, kVertices);
+        };
+        add_tag("_SHARPNESS", primitive.sharpness);
+        add_tag("_TENSION", primitive.tension);
+        add_tag("_BIAS", primitive.bias);
 
         Json out = {{"attributes", std::move(attributes)}};
         std::vector<uint32_t> indices;
@@ -160,7 +169,19 @@ private:
         if (primitive.material >= 0) out["material"] = primitive.material;
         for (const MorphTarget& target : primitive.targets)
             out["targets"].push_back(json_of(target, primitive.positions.size()));
+        add_sharp_tags(primitive, out);
         return out;
+    }
+
+    /// As docs/formats/creases.md has them. JSON has no infinite sharpness.
+    static void add_sharp_tags(const Primitive& primitive, Json& out) {
+        const auto finite = [](float s) { return std::min(s, std::numeric_limits<float>::max()); };
+        for (const SharpEdge& crease : primitive.creases)
+            out["extras"]["creases"].push_back(
+                Json::array({crease.a, crease.b, finite(crease.sharpness)}));
+        for (const SharpVertex& corner : primitive.corners)
+            out["extras"]["corners"].push_back(
+                Json::array({corner.vertex, finite(corner.sharpness)}));
     }
 
     size_t add_positions(const std::vector<vec3>& positions) {

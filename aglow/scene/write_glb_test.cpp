@@ -62,6 +62,11 @@ Scene varied_scene() {
     rich.material = 0;
     rich.texcoords = {{{0, 0}, {1, 0}, {0, 1}}, {{0.5f, 0}, {2, 3}, {-4, 5}}};
     rich.colors = {{1, 0, 0, 1}, {0, 1, 0, 0.5f}, {0, 0, 1, 0}};
+    rich.sharpness = {0, 0.5f, 1};
+    rich.tension = {1, 2, 3};
+    rich.bias = {-1, 0, 0.25f};
+    rich.creases = {{0, 1, 2.5f}, {2, 0, 10}};
+    rich.corners = {{2, 0.1f}};
     Primitive plain = one_triangle();
     plain.material = -1;
     scene.meshes.push_back({"mesh", {rich, plain}, {}});
@@ -130,6 +135,11 @@ void check_same(const Primitive& a, const Primitive& b) {
     CHECK(turned < 1e-6f);
     CHECK(a.texcoords == b.texcoords);
     CHECK(a.colors == b.colors);
+    CHECK(a.sharpness == b.sharpness);
+    CHECK(a.tension == b.tension);
+    CHECK(a.bias == b.bias);
+    CHECK(a.creases == b.creases);
+    CHECK(a.corners == b.corners);
     CHECK(a.influences == b.influences);
     CHECK(a.joints == b.joints);
     CHECK(a.weights == b.weights);

@@ -27,6 +27,12 @@ void check_primitive(const Scene& scene, const Primitive& primitive) {
     require(primitive.joints.size() == count * static_cast<size_t>(primitive.influences));
     require(primitive.weights.size() == primitive.joints.size());
     for (const auto& set : primitive.texcoords) require(set.size() == count);
+    for (const auto* tag : {&primitive.sharpness, &primitive.tension, &primitive.bias})
+        require(tag->empty() || tag->size() == count);
+    for (const SharpEdge& crease : primitive.creases)
+        require(crease.a < count && crease.b < count && crease.sharpness >= 0);
+    for (const SharpVertex& corner : primitive.corners)
+        require(corner.vertex < count && corner.sharpness >= 0);
     for (const uvec3 t : primitive.triangles) require(t.x < count && t.y < count && t.z < count);
     for (const vec3 p : primitive.positions) require(finite(p));
     for (const vec3 n : primitive.normals) require(std::abs(length(n) - 1) < 1e-4f);

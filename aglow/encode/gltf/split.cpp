@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -84,6 +85,35 @@ private:
     std::map<int, int> written_;
 };
 
+/// Gives the first `width` numbers of an entry, vertices of the file, the numbers of one of their
+/// copies. Result: whether all have one.
+bool renumber_entry(Json& entry, size_t width, const std::map<double, size_t>& place) {
+    for (size_t i = 0; i < std::min(width, entry.size()); ++i) {
+        Json& vertex = entry.at(i);
+        if (!vertex.is_number()) continue;
+        const auto at = place.find(vertex.get<double>());
+        if (at == place.end()) return false;
+        vertex = at->second;
+    }
+    return true;
+}
+
+/// The lists of extras that name vertices: docs/formats/creases.md.
+void renumber_tags(Json& json, const Selection& selection) {
+    if (!json.contains("extras") || !json.at("extras").is_object()) return;
+    Json& extras = json.at("extras");
+    std::map<double, size_t> place;
+    for (size_t i = 0; i < selection.sources.size(); ++i) place.emplace(selection.sources[i], i);
+    for (const auto& [key, width] : {std::pair{"creases", size_t{2}}, {"corners", size_t{1}}}) {
+        if (!extras.contains(key) || !extras.at(key).is_array()) continue;
+        Json kept = Json::array();
+        for (Json& entry : extras.at(key))
+            if (!entry.is_array() || renumber_entry(entry, width, place))
+                kept.push_back(std::move(entry));
+        extras[key] = std::move(kept);
+    }
+}
+
 void drop_draco(Document& document, Json& json) {
     const Json* draco = find_extension(json, kDraco);
     if (!draco) return;
@@ -115,6 +145,7 @@ Result<std::vector<uint32_t>> split_vertices(Document& document, Json& json,
     if (json.contains("targets")) {
         for (Json& target : json.at("targets")) AG_CHECK(rewriter.rewrite(target, false));
     }
+    renumber_tags(json, selection);
     drop_draco(document, json);
 
     const int old_indices = integer(json, "indices");

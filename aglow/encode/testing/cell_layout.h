@@ -34,6 +34,7 @@ inline void split_all(Primitive& p) {
     for (auto& set : p.texcoords) set = corners_of(set, vertices);
     p.joints = corners_of(p.joints, vertices, static_cast<size_t>(p.influences));
     p.weights = corners_of(p.weights, vertices, static_cast<size_t>(p.influences));
+    for (auto* tag : {&p.sharpness, &p.tension, &p.bias}) *tag = corners_of(*tag, vertices);
     for (MorphTarget& target : p.targets) {
         target.positions = corners_of(target.positions, vertices);
         target.normals = corners_of(target.normals, vertices);

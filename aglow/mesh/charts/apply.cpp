@@ -47,6 +47,8 @@ void copy_vertices(Primitive& primitive, const std::vector<uint32_t>& copies) {
     for (auto& set : primitive.texcoords) append_copies(set, copies);
     append_copies(primitive.joints, copies, static_cast<size_t>(primitive.influences));
     append_copies(primitive.weights, copies, static_cast<size_t>(primitive.influences));
+    for (auto* tag : {&primitive.sharpness, &primitive.tension, &primitive.bias})
+        append_copies(*tag, copies);
     for (MorphTarget& target : primitive.targets) {
         append_copies(target.positions, copies);
         append_copies(target.normals, copies);

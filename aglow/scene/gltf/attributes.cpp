@@ -24,11 +24,11 @@ std::optional<size_t> set_number(std::string_view name, std::string_view prefix)
     return number <= kMaxSetNumber ? std::optional(number) : std::nullopt;
 }
 
-/// Attributes that light reads; the others (tangents, custom ones) stay compressed.
+/// Attributes that are read; the others (tangents, custom ones) stay compressed.
 bool is_read(std::string_view name) {
-    return name == "POSITION" || name == "NORMAL" || name == "COLOR_0" ||
-           set_number(name, "TEXCOORD_") || set_number(name, "JOINTS_") ||
-           set_number(name, "WEIGHTS_");
+    return name == "POSITION" || name == "NORMAL" || name == "COLOR_0" || name == "_SHARPNESS" ||
+           name == "_TENSION" || name == "_BIAS" || set_number(name, "TEXCOORD_") ||
+           set_number(name, "JOINTS_") || set_number(name, "WEIGHTS_");
 }
 
 Result<DracoRequest> read_request(const Json& primitive, const Json& compressed,

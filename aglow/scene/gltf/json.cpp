@@ -119,6 +119,17 @@ Result<std::string> Json::text_at(size_t i) const {
     return value.get<std::string>();
 }
 
+Result<std::vector<double>> Json::numbers_at(size_t i) const {
+    const Node& list = node(value_)[i];
+    if (!list.is_array()) return wrong(fmt::format("entry {} must be an array", i));
+    std::vector<double> numbers;
+    for (const Node& value : list) {
+        if (!value.is_number()) return wrong(fmt::format("entry {} must hold numbers", i));
+        numbers.push_back(value.get<double>());
+    }
+    return numbers;
+}
+
 Result<int> Json::index(const char* key, size_t count, const char* kind) const {
     const Node* member = find(value_, key);
     if (!member) return -1;

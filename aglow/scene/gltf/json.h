@@ -39,6 +39,8 @@ public:
     std::vector<std::string> keys() const;
     /// Entry `i` of an array of strings.
     Result<std::string> text_at(size_t i) const;
+    /// Entry `i` of an array, itself an array of numbers.
+    Result<std::vector<double>> numbers_at(size_t i) const;
 
     /// Index into a list of `count` things called `kind`, or -1 where absent.
     Result<int> index(const char* key, size_t count, const char* kind) const;

@@ -2,6 +2,7 @@
 #include "aglow/scene/gltf/meshes.h"
 
 #include "aglow/scene/gltf/attributes.h"
+#include "aglow/scene/gltf/sharp_tags.h"
 #include "aglow/scene/gltf/triangles.h"
 
 #include <fmt/format.h>
@@ -98,6 +99,23 @@ Status read_influences(const Json& json, AttributeReader& attributes, Primitive&
     return {};
 }
 
+/// Names that begin with an underscore are free for all: another meaning is no fault of the file.
+Result<std::vector<float>> read_scalar_tag(const Reader& reader, const Json& json,
+                                           AttributeReader& attributes, const std::string& name) {
+    Result<std::vector<float>> values = attributes.read(name, {1});
+    if (values || values.error().code != Errc::malformed) return values;
+    reader.warn(json, fmt::format("{} is left out: {}", name, values.error().message));
+    return std::vector<float>();
+}
+
+Status read_scalar_tags(const Reader& reader, const Json& json, AttributeReader& attributes,
+                        Primitive& primitive) {
+    AG_TRY(primitive.sharpness, read_scalar_tag(reader, json, attributes, "_SHARPNESS"));
+    AG_TRY(primitive.tension, read_scalar_tag(reader, json, attributes, "_TENSION"));
+    AG_TRY(primitive.bias, read_scalar_tag(reader, json, attributes, "_BIAS"));
+    return {};
+}
+
 std::vector<vec3> as_vectors(std::span<const float> values) {
     std::vector<vec3> vectors;
     for (size_t i = 0; i + 2 < values.size(); i += 3)
@@ -157,12 +175,14 @@ Status read_vertices(const Reader& reader, const Json& json, AttributeReader& at
     AG_CHECK(read_texcoords(attributes, primitive));
     AG_CHECK(read_colors(reader, json, attributes, primitive));
     AG_CHECK(read_influences(json, attributes, primitive));
+    AG_CHECK(read_scalar_tags(reader, json, attributes, primitive));
+    read_sharp_tags(json, primitive, reader.warnings);
     return read_targets(reader, json, primitive);
 }
 
 /// Numbers that flat shading will write: all attributes of three vertices per triangle.
 uint64_t flat_numbers(const Primitive& primitive) {
-    const size_t attributes = 10 + 2 * primitive.texcoords.size() +
+    const size_t attributes = 13 + 2 * primitive.texcoords.size() +
                               2 * static_cast<size_t>(primitive.influences) +
                               3 * primitive.targets.size();
     return 3 * attributes * primitive.triangles.size();

@@ -41,6 +41,22 @@ void gather(std::vector<T>& values, std::span<const uint32_t> from, size_t width
     values = std::move(gathered);
 }
 
+/// Tags of vertices that were split, on one copy of each; those of vertices without triangles go.
+void renumber_tags(Primitive& primitive, std::span<const uint32_t> from, size_t vertex_count) {
+    if (primitive.creases.empty() && primitive.corners.empty()) return;
+    constexpr uint32_t kGone = UINT32_MAX;
+    std::vector<uint32_t> copy(vertex_count, kGone);
+    for (uint32_t i = 0; i < from.size(); ++i) copy[from[i]] = i;
+    for (SharpEdge& crease : primitive.creases) {
+        crease.a = copy[crease.a];
+        crease.b = copy[crease.b];
+    }
+    for (SharpVertex& corner : primitive.corners) corner.vertex = copy[corner.vertex];
+    std::erase_if(primitive.creases,
+                  [](const SharpEdge& c) { return c.a == kGone || c.b == kGone; });
+    std::erase_if(primitive.corners, [](const SharpVertex& c) { return c.vertex == kGone; });
+}
+
 }  // namespace
 
 std::vector<uvec3> triangles_of(int mode, std::span<const uint32_t> indices) {
@@ -67,11 +83,14 @@ void make_flat(Primitive& primitive) {
         const vec3 normal = unit_or_up(area_normal(primitive, t));
         primitive.normals.insert(primitive.normals.end(), 3, normal);
     }
+    renumber_tags(primitive, from, primitive.positions.size());
     gather(primitive.positions, from);
     for (auto& set : primitive.texcoords) gather(set, from);
     gather(primitive.colors, from);
     gather(primitive.joints, from, static_cast<size_t>(primitive.influences));
     gather(primitive.weights, from, static_cast<size_t>(primitive.influences));
+    for (auto* tag : {&primitive.sharpness, &primitive.tension, &primitive.bias})
+        gather(*tag, from);
     for (MorphTarget& target : primitive.targets) {
         gather(target.positions, from);
         // Without normals of its own, a primitive has none to displace (section 3.7.2.2).
