@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <new>
+#include <numeric>
 
 namespace aglow {
 namespace {
 
+constexpr const char* kNoMemory = "the topology of a mesh does not fit into memory";
 constexpr size_t kMostCorners = size_t{1} << 31;
 
 Status check(const PolygonList& polygons, std::span<const Crease> creases) {
@@ -51,6 +53,76 @@ struct SortedHalfEdges {
     }
 };
 
+/// In the order of their half-edges: the edges of a face lie close to each other.
+void number_edges(Topology& mesh) {
+    const uint32_t count = mesh.half_edge_count();
+    mesh.edge.resize(count);
+    mesh.edge_half.reserve(count);
+    for (uint32_t h = 0; h < count; ++h) {
+        const uint32_t twin = mesh.twin[h];
+        if (twin < h) {
+            mesh.edge[h] = mesh.edge[twin];
+            continue;
+        }
+        mesh.edge[h] = mesh.edge_count();
+        mesh.edge_half.push_back(h);
+    }
+}
+
+/// Gives the fan of half-edge `first` the vertex that it has, or another where a fan has that.
+void walk_fan(Topology& mesh, uint32_t first, std::vector<bool>& met) {
+    uint32_t v = mesh.vertex[first];
+    if (mesh.vertex_half[v] != kNone) {
+        mesh.source_vertex.push_back(v);
+        v = mesh.vertex_count();
+        mesh.vertex_half.push_back(kNone);
+    }
+    mesh.vertex_half[v] = first;
+    uint32_t h = first;
+    do {
+        met[h] = true;
+        mesh.vertex[h] = v;
+        h = mesh.twin[mesh.previous(h)];
+    } while (h != kNone && h != first);
+}
+
+/// Gives every fan a vertex of its own. Result: how many had to be added.
+uint32_t part_fans(Topology& mesh, uint32_t vertex_count) {
+    mesh.vertex_half.assign(vertex_count, kNone);
+    mesh.source_vertex.resize(vertex_count);
+    std::iota(mesh.source_vertex.begin(), mesh.source_vertex.end(), 0u);
+    std::vector<bool> met(mesh.half_edge_count(), false);
+    // An open fan is met from its end, so those come first; what is left is closed.
+    for (uint32_t h = 0; h < mesh.half_edge_count(); ++h)
+        if (mesh.twin[h] == kNone) walk_fan(mesh, h, met);
+    for (uint32_t h = 0; h < mesh.half_edge_count(); ++h)
+        if (!met[h]) walk_fan(mesh, h, met);
+    return mesh.vertex_count() - vertex_count;
+}
+
+Topology make_seams(const Topology& mesh, std::span<const uint32_t> corners,
+                    uint32_t vertex_count) {
+    Topology seams;
+    seams.face_begin = mesh.face_begin;
+    seams.face = mesh.face;
+    seams.source_face = mesh.source_face;
+    seams.vertex.assign(corners.begin(), corners.end());
+    seams.twin = mesh.twin;
+    for (uint32_t h = 0; h < mesh.half_edge_count(); ++h) {
+        const uint32_t twin = mesh.twin[h];
+        if (twin != kNone &&
+            (corners[h] != corners[mesh.next(twin)] || corners[mesh.next(h)] != corners[twin]))
+            seams.twin[h] = kNone;
+    }
+    number_edges(seams);
+    for (const uint32_t h : seams.edge_half)
+        seams.edge_sharpness.push_back(mesh.edge_sharpness[mesh.edge[h]]);
+    part_fans(seams, vertex_count);
+    for (const uint32_t h : seams.vertex_half)
+        seams.vertex_sharpness.push_back(h == kNone ? 0 : mesh.vertex_sharpness[mesh.vertex[h]]);
+    return seams;
+}
+
 class Builder {
 public:
     Builder(const PolygonList& polygons, std::span<const Crease> creases)
@@ -60,9 +132,9 @@ public:
         keep_faces();
         sort_half_edges();
         pair_half_edges();
-        number_edges();
+        number_edges(mesh_);
         sharpen_edges();
-        part_fans();
+        repairs_.split_vertices = part_fans(mesh_, polygons_.vertex_count);
         mesh_.vertex_sharpness.assign(mesh_.vertex_count(), 0.0f);
         return {std::move(mesh_), repairs_};
     }
@@ -136,22 +208,6 @@ private:
         }
     }
 
-    /// In the order of their half-edges: the edges of a face lie close to each other.
-    void number_edges() {
-        const uint32_t count = mesh_.half_edge_count();
-        mesh_.edge.resize(count);
-        mesh_.edge_half.reserve(count);
-        for (uint32_t h = 0; h < count; ++h) {
-            const uint32_t twin = mesh_.twin[h];
-            if (twin < h) {
-                mesh_.edge[h] = mesh_.edge[twin];
-                continue;
-            }
-            mesh_.edge[h] = mesh_.edge_count();
-            mesh_.edge_half.push_back(h);
-        }
-    }
-
     void sharpen_edges() {
         mesh_.edge_sharpness.assign(mesh_.edge_count(), 0.0f);
         for (const Crease& crease : creases_) {
@@ -166,36 +222,6 @@ private:
                 sharpness = std::max(sharpness, crease.sharpness);
             }
         }
-    }
-
-    /// Gives every fan a vertex: the first fan found keeps the one that it has.
-    void part_fans() {
-        mesh_.vertex_half.assign(polygons_.vertex_count, kNone);
-        mesh_.source_vertex.resize(polygons_.vertex_count);
-        for (uint32_t v = 0; v < polygons_.vertex_count; ++v) mesh_.source_vertex[v] = v;
-        std::vector<bool> met(mesh_.half_edge_count(), false);
-        // An open fan is met from its end, so those come first; what is left is closed.
-        for (uint32_t h = 0; h < mesh_.half_edge_count(); ++h)
-            if (mesh_.twin[h] == kNone) walk_fan(h, met);
-        for (uint32_t h = 0; h < mesh_.half_edge_count(); ++h)
-            if (!met[h]) walk_fan(h, met);
-    }
-
-    void walk_fan(uint32_t first, std::vector<bool>& met) {
-        uint32_t v = mesh_.vertex[first];
-        if (mesh_.vertex_half[v] != kNone) {
-            ++repairs_.split_vertices;
-            mesh_.source_vertex.push_back(v);
-            v = mesh_.vertex_count();
-            mesh_.vertex_half.push_back(kNone);
-        }
-        mesh_.vertex_half[v] = first;
-        uint32_t h = first;
-        do {
-            met[h] = true;
-            mesh_.vertex[h] = v;
-            h = mesh_.twin[mesh_.previous(h)];
-        } while (h != kNone && h != first);
     }
 
     const PolygonList& polygons_;
@@ -213,7 +239,17 @@ Result<TopologyResult> build_topology(const PolygonList& polygons,
     try {
         return Builder(polygons, creases).build();
     } catch (const std::bad_alloc&) {
-        return fail(Errc::out_of_memory, "the topology of a mesh does not fit into memory");
+        return fail(Errc::out_of_memory, kNoMemory);
+    }
+}
+
+Result<Topology> cut_seams(const Topology& topology, std::span<const uint32_t> corners,
+                           uint32_t vertex_count) {
+    AG_ASSERT(corners.size() == topology.half_edge_count(), "every corner has a vertex");
+    try {
+        return make_seams(topology, corners, vertex_count);
+    } catch (const std::bad_alloc&) {
+        return fail(Errc::out_of_memory, kNoMemory);
     }
 }
 

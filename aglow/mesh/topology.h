@@ -97,4 +97,12 @@ struct TopologyResult {
 Result<TopologyResult> build_topology(const PolygonList& polygons,
                                       std::span<const Crease> creases = {});
 
+/// The same faces and half-edges over other vertices: an edge stays where its two faces agree about
+/// both ends, and is a boundary elsewhere. Sharpness is that of `topology`.
+/// Shapes  corners [half-edge] vertices below vertex_count. Where one of these is of several
+///         corners that no edges join, each fan gets one, as build_topology() does.
+/// Errors  out_of_memory.   Cost  O(n)
+Result<Topology> cut_seams(const Topology& topology, std::span<const uint32_t> corners,
+                           uint32_t vertex_count);
+
 }  // namespace aglow
