@@ -17,7 +17,7 @@ struct Cost {
     double growth;  ///< ... and the power of the number of triangles with which that grows
 };
 constexpr std::array kCosts = {Cost{Accel::grid, 1.0, 11.5, 0.285},
-                               Cost{Accel::grid2, 1.9, 5.8, 0.2}, Cost{Accel::bvh, 3.9, 3.5, 0.15}};
+                               Cost{Accel::grid2, 1.9, 5.8, 0.2}, Cost{Accel::bvh, 1.7, 3.5, 0.15}};
 constexpr double kUnlimited = 1e15;  // rays; keeps sums finite
 
 }  // namespace
