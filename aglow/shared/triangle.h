@@ -90,9 +90,10 @@ AG_FN float exact_cross(float px, float py, float qx, float qy) {
 //
 // Interpolating errs by the rounding of a needle's area over that area, which puts hits of rays
 // that start near its middle before or behind them; the plane errs by the rounding of one product,
-// if its normal comes from the two shorter edges, whose products do not cancel. Where the needle is
-// so thin that the rounding of its corners turns the plane, or the ray runs along the plane, depths
-// are the better answer: they never leave the triangle.
+// if its normal comes from the two shorter edges, whose products do not cancel, and its distance
+// from the nearest corner. Where the needle is so thin that the rounding of its corners turns the
+// plane, or the ray runs along a triangle that is none, depths are the better answer. No answer
+// leaves the triangle.
 AG_FN float plane_distance(ShearedRay ray, vec3 a, vec3 b, vec3 c, float interpolated) {
     vec3 ab = b - a;
     vec3 bc = c - b;
@@ -109,14 +110,23 @@ AG_FN float plane_distance(ShearedRay ray, vec3 a, vec3 b, vec3 c, float interpo
         first = ca;
         second = ab;
     }
+    vec3 nearest = dot(b, b) < dot(a, a) ? b : a;
+    nearest = dot(c, c) < dot(nearest, nearest) ? c : nearest;
     vec3 normal = cross(first, second);
     float longest = max(ab2, max(bc2, ca2));
     float thinnest = 3.7252903e-9f * (dot(a, a) + longest);  // (2^-14 of the distance)^2
     float squared = dot(normal, normal);
     float across = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
-    bool along = across * across < 0.00390625f * squared;  // 2^-8: within 4 degrees or so
-    if (along || !(squared > longest * thinnest)) return interpolated;
-    return dot(normal, a) / across * ray.shear.z;
+    bool along = across * across < 0.00390625f * squared;   // 2^-8: within 4 degrees or so
+    bool narrow = squared < 0.015625f * longest * longest;  // less than an eighth as high as long
+    if ((along && !narrow) || across == 0.0f || !(squared > longest * thinnest))
+        return interpolated;
+    float depth = dot(normal, nearest) / across;
+    float low = min(a.z, min(b.z, c.z));
+    float high = max(a.z, max(b.z, c.z));
+    if (depth < low) depth = low;  // clamp() would make a number of what is none
+    if (depth > high) depth = high;
+    return depth * ray.shear.z;
 }
 
 // Both sides of a triangle are hit; one that the ray sees edge-on, or with a corner that is not
