@@ -64,6 +64,18 @@ TEST_CASE("a ray ends where it is told to") {
     CHECK(rays.visibility({{0.5f, 1, 0.5f}, {0, -1, 0}, 0.999f}) == 1);
 }
 
+TEST_CASE("a ray does not meet what it starts on") {
+    const Scene scene = square(AlphaMode::opaque);
+    const Surfaces surfaces = pose(scene);
+    const RayScene rays = *RayScene::create(scene, surfaces);
+    for (const float y : {-1.0f, -0.25f, 0.25f, 1.0f}) {
+        const Ray ray{{0.25f, 0, 0.5f}, normalize(vec3{1, y, 0.5f})};
+        CHECK_FALSE(rays.intersect(ray));
+        CHECK(rays.visibility(ray) == 1);
+    }
+    CHECK(rays.intersect({{0.25f, 1e-20f, 0.5f}, {0, -1, 0}}));
+}
+
 TEST_CASE("a mask lets rays pass where its texture is transparent and only there") {
     const Scene scene = square(AlphaMode::mask, half_transparent());
     const Surfaces surfaces = pose(scene);

@@ -64,7 +64,7 @@ void load(std::span<const Ray> rays, RTCRay8& packet, int (&valid)[kPacketSize])
         packet.dir_x[i] = ray.direction.x;
         packet.dir_y[i] = ray.direction.y;
         packet.dir_z[i] = ray.direction.z;
-        packet.tnear[i] = 0;
+        packet.tnear[i] = kNear;
         packet.tfar[i] = ray.far;
         packet.time[i] = 0;
         packet.mask[i] = 0xffffffffu;

@@ -10,6 +10,10 @@
 
 namespace aglow::accel::cpu {
 
+/// Where rays begin. Embree takes hits at tnear itself, but what a ray starts on does not count as
+/// met: this is above zero and below any distance between things.
+inline constexpr float kNear = 1e-30f;
+
 /// What filter functions read to decide whether a ray passes a masked or blended surface.
 struct AlphaTest {
     const Scene* scene;
@@ -83,7 +87,7 @@ private:
         ray.org_x = origin.x;
         ray.org_y = origin.y;
         ray.org_z = origin.z;
-        ray.tnear = 0;
+        ray.tnear = kNear;
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;
         ray.dir_z = direction.z;
