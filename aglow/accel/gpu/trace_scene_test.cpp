@@ -194,6 +194,11 @@ void check_hits(const std::vector<Triangle>& triangles, std::span<const RayQuery
     if (!triangles.empty()) CHECK(met > rays.size() / 50);
 }
 
+void check_rays(Rig& rig, const TraceScene& scene, const World& world,
+                std::span<const RayQuery> rays) {
+    check_hits(world.triangles(), rays, rig.trace(scene, rays));
+}
+
 World scattered(size_t count, Motion motion, uint64_t seed, float spread = 8) {
     Source source(seed);
     World world;
@@ -219,8 +224,7 @@ TEST_CASE("rigid bodies are built once; rays meet them wherever they go") {
                     world.transforms[g] = source.transform(8.0f * static_cast<float>(frame));
             rig.update(scene, world.triangles(), world.transforms);
             CHECK(scene.work().built == (frame == 0 ? 21 : 0));
-            const auto rays = source.rays(2000, 9);
-            check_hits(world.triangles(), rays, rig.trace(scene, rays));
+            check_rays(rig, scene, world, source.rays(2000, 9));
         }
     }
 }
@@ -241,8 +245,7 @@ TEST_CASE("a body that vanishes into a point or grows a lot is rebuilt, and foun
         world.transforms[2] = scaled(scale);
         rig.update(scene, world.triangles(), world.transforms);
         CHECK(scene.work().built == built);
-        const auto rays = source.rays(1000, 5);
-        check_hits(world.triangles(), rays, rig.trace(scene, rays));
+        check_rays(rig, scene, world, source.rays(1000, 5));
     }
 }
 
@@ -264,8 +267,7 @@ TEST_CASE("empty groups, broken triangles and no groups at all are hit by nothin
         TraceScene scene = rig.make(world, accel);
         for (int frame = 0; frame < 2; ++frame) {
             rig.update(scene, world.triangles(), world.transforms);
-            const auto rays = source.rays(1000, 3);
-            check_hits(world.triangles(), rays, rig.trace(scene, rays));
+            check_rays(rig, scene, world, source.rays(1000, 3));
         }
         World nothing;
         TraceScene empty = rig.make(nothing, accel);
@@ -319,8 +321,7 @@ TEST_CASE("structures of several kinds stand side by side") {
         world.transforms[5] = source.transform(4);
         rig.update(scene, world.triangles(), world.transforms);
         CHECK(scene.work().built == (frame == 0 ? 6 : 1));
-        const auto rays = source.rays(1500, 5);
-        check_hits(world.triangles(), rays, rig.trace(scene, rays));
+        check_rays(rig, scene, world, source.rays(1500, 5));
     }
 }
 
@@ -345,8 +346,7 @@ TEST_CASE("a body that deforms a little is refitted; torn apart, it is rebuilt o
             rig.update(scene, world.triangles(), world.transforms);
             CHECK(scene.work().built == built);
             CHECK(scene.work().refitted == refitted);
-            const auto rays = source.rays(1000, 6);
-            check_hits(world.triangles(), rays, rig.trace(scene, rays));
+            check_rays(rig, scene, world, source.rays(1000, 6));
         };
         step(2, 0);
         for (size_t i = 0; i < 600; ++i) world.bodies[i].a += source.point(0.02f);
@@ -389,7 +389,7 @@ TEST_CASE("triangles that fly apart and come together again are found all the wa
             for (size_t i = 0; i < rays.size(); ++i)
                 rays[i].direction = world.bodies[i % body.size()].a * 0.4f +
                                     world.bodies[i % body.size()].b * 0.6f - rays[i].origin;
-            check_hits(world.triangles(), rays, rig.trace(scene, rays));
+            check_rays(rig, scene, world, rays);
         }
     }
 }
