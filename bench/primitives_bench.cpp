@@ -51,7 +51,7 @@ Result<DeviceTime> time_device(Stream& stream, const std::function<void()>& prep
         DeviceTime time{0, stream.take_timings()};
         std::erase_if(time.kernels, [](const Timing& t) { return t.label != kTimed; });
         for (const Timing& timing : time.kernels) time.seconds += timing.seconds;
-        if (time.seconds < best.seconds) best = std::move(time);
+        if (time.seconds < best.seconds) std::swap(best, time);
     }
     return best;
 }
