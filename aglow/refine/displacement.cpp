@@ -82,4 +82,17 @@ float sample(const HeightMap& map, vec2 uv, float level) {
     return rest > 0 ? shared::mix(height, of_level(map, uv, lower + 1), rest) : height;
 }
 
+float fitting_level(const HeightMap& map, const Topology& topology, std::span<const vec2> uvs,
+                    int segments) {
+    AG_ASSERT(uvs.size() == topology.half_edge_count(), "coordinates for every corner");
+    double texels = 0;
+    for (uint32_t h = 0; h < topology.half_edge_count(); ++h) {
+        const vec2 along = uvs[topology.next(h)] - uvs[h];
+        texels += double(std::hypot(along.x * static_cast<float>(map.levels.width),
+                                    along.y * static_cast<float>(map.levels.height)));
+    }
+    const double steps = double(segments) * std::max<double>(topology.half_edge_count(), 1);
+    return static_cast<float>(std::max(0.0, std::log2(std::max(texels / steps, 1.0))));
+}
+
 }  // namespace aglow

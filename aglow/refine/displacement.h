@@ -2,6 +2,7 @@
 #pragma once
 #include "aglow/core/math.h"
 #include "aglow/core/result.h"
+#include "aglow/mesh/topology.h"
 #include "aglow/shared/displacement.h"
 
 #include <cstdint>
@@ -25,6 +26,12 @@ HeightMap make_height_map(std::span<const float> heights, int width, int height)
 
 /// Height at uv, of mip level `level`, which may lie between two.
 float sample(const HeightMap& map, vec2 uv, float level);
+
+/// The level whose texels are as far apart as the vertices of edges of so many segments: what is
+/// finer would only be missed here and hit there.
+/// Shapes  uvs [half-edge]
+float fitting_level(const HeightMap& map, const Topology& topology, std::span<const vec2> uvs,
+                    int segments);
 
 /// How a surface is displaced.
 struct DisplacementMap {

@@ -4,6 +4,7 @@
 #include "aglow/core/assert.h"
 #include "aglow/core/parallel.h"
 #include "aglow/refine/cpu/general_patches.h"
+#include "aglow/refine/cpu/patch_faces.h"
 #include "aglow/refine/cpu/uniform_patches.h"
 #include "aglow/shared/phong_tessellation.h"
 
@@ -187,6 +188,26 @@ void Patches::evaluate_normals(const PatchControl& control, const Tessellation& 
                                std::span<vec3> normals) const {
     AG_ASSERT(normals.size() == tessellation.vertex_count(), "room for all normals");
     refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, {}, normals);
+}
+
+PatchPlace Patches::at(const PatchControl& control, uint32_t face, vec2 coordinates) const {
+    using namespace refine::cpu;
+    const float x = coordinates.x, y = coordinates.y, u = 1 - x - y;
+    if (topology_.face_size(face) == 3) {
+        const auto points = triangle_points(topology_, control, face);
+        const auto normals = face_normals<shared::PatchNormals>(topology_, control, face);
+        const auto directions = face_directions<shared::PatchNormals>(topology_, control, face);
+        return {shared::patch_position(points, u, x, y),
+                shared::patch_derivative_v(points, u, x, y),
+                shared::patch_derivative_w(points, u, x, y), shared::patch_normal(normals, u, x, y),
+                shared::patch_normal(directions, u, x, y)};
+    }
+    const auto points = quad_points(topology_, control, face);
+    const auto normals = face_normals<shared::QuadNormals>(topology_, control, face);
+    const auto directions = face_directions<shared::QuadNormals>(topology_, control, face);
+    return {shared::quad_position(points, x, y), shared::quad_derivative_x(points, x, y),
+            shared::quad_derivative_y(points, x, y), shared::quad_normal(normals, x, y),
+            shared::quad_normal(directions, x, y)};
 }
 
 std::vector<vec3> corner_normals(const Topology& topology, std::span<const vec3> positions) {

@@ -45,6 +45,14 @@ struct PatchControl {
     std::vector<vec3> middle_directions;    ///< [edge]
 };
 
+/// A place on a patch.
+struct PatchPlace {
+    vec3 position;
+    vec3 by_x, by_y;  ///< derivatives by the coordinates
+    vec3 normal;      ///< unit, that it is shaded with
+    vec3 direction;   ///< unit, along which displacement moves it
+};
+
 /// Curved patches over the triangles and quads of a mesh. Neighbours meet bitwise, whatever their
 /// levels: points on an edge follow from data of the edge alone, in one direction.
 /// Source  aglow/shared/pn_triangle.h, tagged_triangle.h, phong_tessellation.h. Quads are Coons
@@ -73,6 +81,9 @@ public:
     /// vertex_half of the tessellation's topology, which is cut along creases to have both.
     void evaluate_normals(const PatchControl& control, const Tessellation& tessellation,
                           std::span<vec3> normals) const;
+
+    /// The patch of one face at coordinates of its pattern (Pattern::coordinates), undisplaced.
+    PatchPlace at(const PatchControl& control, uint32_t face, vec2 coordinates) const;
 
     const Topology& topology() const { return topology_; }
 

@@ -92,7 +92,7 @@ struct PatchEvaluateArgs {
     uint segments;      // of the pattern
     uint vertex_count;  // of the pattern
     uint first_face, face_count;
-    uint adaptive;  // 1: `levels` holds those of each face
+    uint unused;
     PatchMeshPtr mesh;
     uintPtr steps;          // [vertex_count] Pattern::steps
     PatchLevelsPtr levels;  // [face of the mesh]

@@ -33,11 +33,15 @@ AG_FN float noise_fade_slope(float t) { return 30.0f * t * t * (t * (t - 2.0f) +
 // Noise of period-free cells of edge 1; 0 at their corners, about -1 .. 1 between.
 AG_FN Field gradient_noise(vec3 p, uint seed) {
     // Further away a float has no fraction anyway.
+    vec3 q;
     vec3 cell;
-    cell.x = clamp(floor(p.x), -1.0e9f, 1.0e9f);
-    cell.y = clamp(floor(p.y), -1.0e9f, 1.0e9f);
-    cell.z = clamp(floor(p.z), -1.0e9f, 1.0e9f);
-    vec3 d = p - cell;
+    q.x = clamp(p.x, -1.0e9f, 1.0e9f);
+    q.y = clamp(p.y, -1.0e9f, 1.0e9f);
+    q.z = clamp(p.z, -1.0e9f, 1.0e9f);
+    cell.x = floor(q.x);
+    cell.y = floor(q.y);
+    cell.z = floor(q.z);
+    vec3 d = q - cell;
     vec3 near_weight;
     vec3 slope;
     near_weight.x = 1.0f - noise_fade(d.x);

@@ -15,11 +15,14 @@ AG_NAMESPACE_BEGIN
 
 AG_CONST uint kInsidePattern = 4u;  // edge of a vertex that is on none
 
+// Of PatchLevels::continuous: all edges have the pattern's segments, whatever `edge` says.
+AG_CONST uint kUniformLevels = 2u;
+
 // Of one face. 24 bytes.
 struct PatchLevels {
     float edge[4];    // segments, 1 .. those of the pattern; edge i leaves corner i
     float inner;      // 0: inner vertices are where half the pattern's segments have them .. 1
-    uint continuous;  // 1: as said above
+    uint continuous;  // 1: as said above; or kUniformLevels
 };
 AG_BUFFER_OF(PatchLevels);
 
@@ -112,6 +115,7 @@ AG_FN uvec2 coarser_quad_vertex(uint i, uint j, uint segments) {
 AG_FN float pattern_edge_parameter(uint k, uint segments, PatchLevels levels, uint edge,
                                    uint reversed) {
     uint along = ((reversed >> edge) & 1u) != 0u ? segments - k : k;
+    if (levels.continuous == kUniformLevels) return float(along) / float(segments);
     float level = levels.edge[edge];
     uint own = edge_segments(level, levels.continuous);
     return edge_parameter(snapped(along, segments, own, levels.continuous), level,

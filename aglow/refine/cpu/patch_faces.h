@@ -7,11 +7,11 @@
 
 namespace aglow::refine::cpu {
 
-/// The points of the half-edge's edge, in the half-edge's direction.
+/// The points of the half-edge's edge, in the direction of the half-edge, which ends at `end`.
 inline shared::EdgePoints points_along(const Topology& topology, const PatchControl& control,
-                                       uint32_t h) {
+                                       uint32_t h, uint32_t end) {
     const shared::EdgePoints e = control.edges[topology.edge[h]];
-    if (topology.vertex[h] < topology.end(h)) return e;
+    if (topology.vertex[h] < end) return e;
     return {e.second, e.first};
 }
 
@@ -20,7 +20,8 @@ inline shared::PatchPoints triangle_points(const Topology& topology, const Patch
     shared::PatchPoints c;
     const uint32_t first = topology.face_begin[f];
     for (uint32_t i = 0; i < 3; ++i) {
-        const shared::EdgePoints e = points_along(topology, control, first + i);
+        const uint32_t end = topology.vertex[first + (i + 1) % 3];
+        const shared::EdgePoints e = points_along(topology, control, first + i, end);
         c.p[i] = control.positions[topology.vertex[first + i]];
         c.p[3 + 2 * i] = e.first;
         c.p[4 + 2 * i] = e.second;
@@ -34,7 +35,8 @@ inline shared::QuadPoints quad_points(const Topology& topology, const PatchContr
     shared::QuadPoints c;
     const uint32_t first = topology.face_begin[f];
     for (uint32_t i = 0; i < 4; ++i) {
-        const shared::EdgePoints e = points_along(topology, control, first + i);
+        const uint32_t end = topology.vertex[first + (i + 1) % 4];
+        const shared::EdgePoints e = points_along(topology, control, first + i, end);
         c.p[i] = control.positions[topology.vertex[first + i]];
         c.p[4 + 2 * i] = e.first;
         c.p[5 + 2 * i] = e.second;

@@ -32,7 +32,7 @@ public:
     }
 
     /// Where the next floats go: kMostRoom of them may be written, and again.
-    float* room() {
+    [[gnu::always_inline]] float* room() {
         if (used_ > kCapacity) flush();
         return staging_ + used_;
     }
@@ -40,11 +40,12 @@ public:
 
 private:
     static constexpr size_t kLine = 16;  // floats of a cache line
-    static constexpr size_t kCapacity = 2048;
+    // Few, so that the processor computes the next row while lines are on their way.
+    static constexpr size_t kCapacity = 64;
 
     /// Sends whole lines; what begins or ends within one goes the usual way, since the rest of that
     /// line may be another thread's.
-    void flush() {
+    [[gnu::always_inline]] void flush() {
         const size_t whole = used_ / kLine * kLine;
         size_t i = 0;
         if (skipped_ > 0 && whole > 0) {
@@ -58,19 +59,20 @@ private:
             to_ += whole - i;
         }
         if (whole == 0) return;
-        std::memcpy(staging_, staging_ + whole, (used_ - whole) * sizeof(float));
+        std::memmove(staging_, staging_ + whole, kLine * sizeof(float));
         used_ -= whole;
     }
 
-    void stream(const float* from, size_t count) {
+    [[gnu::always_inline]] void stream(const float* from, size_t count) {
+        float* const to = to_;
 #if defined(__SSE2__)
-        for (size_t i = 0; i < count; i += 4) _mm_stream_ps(to_ + i, _mm_load_ps(from + i));
+        for (size_t i = 0; i < count; i += 4) _mm_stream_ps(to + i, _mm_load_ps(from + i));
 #else
-        std::memcpy(to_, from, count * sizeof(float));
+        std::memcpy(to, from, count * sizeof(float));
 #endif
     }
 
-    alignas(64) float staging_[kCapacity + kMostRoom + kLine];
+    alignas(64) float staging_[kCapacity + kMostRoom + 2 * kLine];
     float* to_;
     size_t used_;
     size_t skipped_;  // floats of the first line that are another's

@@ -8,24 +8,33 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <vector>
 
 namespace aglow::refine::cpu {
 namespace {
 
+using Four = float __attribute__((vector_size(16)));
+using Eight = float __attribute__((vector_size(32)));
+
 /// Floats that loops work on at a time: eight points x, y, z. Rows are computed in whole steps;
 /// what lies beyond their ends is overwritten by what follows.
 constexpr size_t kStep = 24;
 
-/// A coefficient of a polynomial in space, as often as there are points in a step.
-using Spread = std::array<float, kStep>;
+Four four(vec3 v) {
+    const Four r = {v.x, v.y, v.z, 0};
+    return r;
+}
 
-void spread(vec3 value, Spread& to) {
-    for (size_t i = 0; i < kStep; i += 3) {
-        to[i] = value.x;
-        to[i + 1] = value.y;
-        to[i + 2] = value.z;
-    }
+/// A coefficient of a polynomial in space, as often as there are points in a step.
+struct Spread {
+    Eight part[3];
+};
+
+[[gnu::always_inline]] inline void spread(Four v, Spread& to) {
+    to.part[0] = __builtin_shufflevector(v, v, 0, 1, 2, 0, 1, 2, 0, 1);
+    to.part[1] = __builtin_shufflevector(v, v, 2, 0, 1, 2, 0, 1, 2, 0);
+    to.part[2] = __builtin_shufflevector(v, v, 1, 2, 0, 1, 2, 0, 1, 2);
 }
 
 /// k / n for k = 1 .., each three times, padded to whole steps.
@@ -37,54 +46,53 @@ std::vector<float> parameters(size_t n) {
 }
 
 /// The polynomial of a row's points in x.
-struct Row {
-    Spread c0, c1, c2, c3;
+struct RowPowers {
+    Four c0, c1, c2, c3;
 };
 
 /// That of a triangle in powers x^i y^j.
 struct TrianglePowers {
-    Spread c00, c01, c02, c03, c10, c11, c12, c20, c21, c30;
+    Four c00, c01, c02, c03, c10, c11, c12, c20, c21, c30;
 };
 
 TrianglePowers powers(const shared::PatchPoints& c) {
-    const auto p = [&](size_t i) { return c.p[i]; };
-    TrianglePowers r;
-    spread(p(0), r.c00);
-    spread((p(3) - p(0)) * 3, r.c10);
-    spread((p(8) - p(0)) * 3, r.c01);
-    spread((p(0) - p(3) * 2 + p(4)) * 3, r.c20);
-    spread((p(0) - p(8) * 2 + p(7)) * 3, r.c02);
-    spread((p(0) - p(3) - p(8) + p(9)) * 6, r.c11);
-    spread(p(1) - p(0) + (p(3) - p(4)) * 3, r.c30);
-    spread(p(2) - p(0) + (p(8) - p(7)) * 3, r.c03);
-    spread((p(3) * 2 - p(0) - p(4) + p(8) - p(9) * 2 + p(5)) * 3, r.c21);
-    spread((p(8) * 2 - p(0) - p(7) + p(3) - p(9) * 2 + p(6)) * 3, r.c12);
-    return r;
+    std::array<Four, 10> p;
+    for (size_t i = 0; i < 10; ++i) p[i] = four(c.p[i]);
+    return {.c00 = p[0],
+            .c01 = (p[8] - p[0]) * 3,
+            .c02 = (p[0] - p[8] * 2 + p[7]) * 3,
+            .c03 = p[2] - p[0] + (p[8] - p[7]) * 3,
+            .c10 = (p[3] - p[0]) * 3,
+            .c11 = (p[0] - p[3] - p[8] + p[9]) * 6,
+            .c12 = (p[8] * 2 - p[0] - p[7] + p[3] - p[9] * 2 + p[6]) * 3,
+            .c20 = (p[0] - p[3] * 2 + p[4]) * 3,
+            .c21 = (p[3] * 2 - p[0] - p[4] + p[8] - p[9] * 2 + p[5]) * 3,
+            .c30 = p[1] - p[0] + (p[3] - p[4]) * 3};
 }
 
-inline void row_at(const TrianglePowers& c, float y, Row& row) {
-    for (size_t i = 0; i < kStep; ++i) {
-        row.c0[i] = ((c.c03[i] * y + c.c02[i]) * y + c.c01[i]) * y + c.c00[i];
-        row.c1[i] = (c.c12[i] * y + c.c11[i]) * y + c.c10[i];
-        row.c2[i] = c.c21[i] * y + c.c20[i];
-    }
-}
-
-/// `count` points at the parameters `x`.
-inline void write_row(const Row& row, const float* x, size_t count, float* out) {
+/// `count` points at the parameters `x`. Inlined, so that it is compiled for each processor.
+[[gnu::always_inline]] inline void write_row(const RowPowers& row, const float* x, size_t count,
+                                             float* out) {
+    Spread c0, c1, c2, c3;
+    spread(row.c0, c0);
+    spread(row.c1, c1);
+    spread(row.c2, c2);
+    spread(row.c3, c3);
     for (size_t begin = 0; begin < 3 * count; begin += kStep)
-        for (size_t i = 0; i < kStep; ++i) {
-            const float t = x[begin + i];
-            out[begin + i] = ((row.c3[i] * t + row.c2[i]) * t + row.c1[i]) * t + row.c0[i];
+        for (size_t i = 0; i < 3; ++i) {
+            Eight t;
+            std::memcpy(&t, x + begin + 8 * i, sizeof t);
+            const Eight p = ((c3.part[i] * t + c2.part[i]) * t + c1.part[i]) * t + c0.part[i];
+            std::memcpy(out + begin + 8 * i, &p, sizeof p);
         }
 }
 
 AGLOW_TARGET_CLONES
 void write_triangle(const TrianglePowers& c, const float* x, size_t n, StreamWriter& writer) {
-    Row row;
-    row.c3 = c.c30;
     for (size_t j = 1; j + 1 < n; ++j) {
-        row_at(c, x[3 * (j - 1)], row);
+        const float y = x[3 * (j - 1)];
+        const RowPowers row = {((c.c03 * y + c.c02) * y + c.c01) * y + c.c00,
+                               (c.c12 * y + c.c11) * y + c.c10, c.c21 * y + c.c20, c.c30};
         const size_t count = n - 1 - j;
         write_row(row, x, count, writer.room());
         writer.commit(3 * count);
@@ -92,19 +100,15 @@ void write_triangle(const TrianglePowers& c, const float* x, size_t n, StreamWri
 }
 
 AGLOW_TARGET_CLONES
-void write_edge(const Row& row, const float* t, size_t count, StreamWriter& writer) {
+void write_edge(const RowPowers& row, const float* t, size_t count, StreamWriter& writer) {
     write_row(row, t, count, writer.room());
     writer.commit(3 * count);
 }
 
 /// Of an edge's cubic, from its end with the lower number.
-Row edge_powers(vec3 a, const shared::EdgePoints& e, vec3 b) {
-    Row row;
-    spread(a, row.c0);
-    spread((e.first - a) * 3, row.c1);
-    spread((a - e.first * 2 + e.second) * 3, row.c2);
-    spread(b - a + (e.first - e.second) * 3, row.c3);
-    return row;
+RowPowers edge_powers(vec3 from, const shared::EdgePoints& e, vec3 to) {
+    const Four a = four(from), f = four(e.first), g = four(e.second), b = four(to);
+    return {a, (f - a) * 3, (a - f * 2 + g) * 3, b - a + (f - g) * 3};
 }
 
 struct Tables {
@@ -127,7 +131,7 @@ void write_edges(const Topology& topology, const PatchControl& control,
     for (size_t e = begin; e < end; ++e) {
         const uint32_t h = tessellation.edge_half[e];
         const uint32_t from = topology.vertex[h], to = topology.end(h);
-        const Row row =
+        const RowPowers row =
             edge_powers(control.positions[std::min(from, to)], control.edges[topology.edge[h]],
                         control.positions[std::max(from, to)]);
         write_edge(row, (from < to ? tables.rising : tables.falling).data(),

@@ -22,7 +22,8 @@ using shared::PatchEdgeEnds;
 using shared::PatchFace;
 
 struct Kernels {
-    vk::Kernel vertices, edges, control, evaluate;
+    vk::Kernel vertices, edges, control;
+    std::vector<vk::Kernel> evaluate;  ///< [2 * is quad + is adaptive]
 
     static Result<Kernels> create(const Gpu& gpu, uint32_t displacement) {
         const std::array constants = {displacement};
@@ -31,8 +32,14 @@ struct Kernels {
         AG_TRY(auto edges, vk::Kernel::create(gpu, "patch edges", shaders::patch_edges_comp));
         AG_TRY(auto control,
                vk::Kernel::create(gpu, "patch control points", shaders::patch_control_comp));
-        AG_TRY(auto evaluate,
-               vk::Kernel::create(gpu, "patch patterns", shaders::patch_evaluate_comp, constants));
+        std::vector<vk::Kernel> evaluate;
+        for (const uint32_t corners : {3u, 4u})
+            for (const uint32_t adaptive : {0u, 1u}) {
+                AG_TRY(auto kernel,
+                       vk::Kernel::create(gpu, "patch patterns", shaders::patch_evaluate_comp,
+                                          std::array{displacement, corners, adaptive}));
+                evaluate.push_back(std::move(kernel));
+            }
         return Kernels{std::move(vertices), std::move(edges), std::move(control),
                        std::move(evaluate)};
     }
@@ -111,6 +118,20 @@ std::vector<uvec2> device_across(const Topology& topology) {
     return across;
 }
 
+Result<DevicePattern> upload_pattern(vk::Stream& stream, const Pattern& pattern, int segments,
+                                     uint32_t corners) {
+    DevicePattern device;
+    device.segments = segments;
+    device.corners = corners;
+    device.vertex_count = static_cast<uint32_t>(pattern.steps.size());
+    device.triangle_count = static_cast<uint32_t>(pattern.triangles.size());
+    AG_TRY(device.steps, vk::make_buffer_of(stream, std::span<const uint32_t>(pattern.steps),
+                                            "vertices of a pattern"));
+    AG_TRY(device.triangles, vk::make_buffer_of(stream, std::span<const uvec3>(pattern.triangles),
+                                                "triangles of a pattern"));
+    return device;
+}
+
 }  // namespace
 
 uint32_t reversed_edges(const Topology& topology, uint32_t face) {
@@ -121,16 +142,12 @@ uint32_t reversed_edges(const Topology& topology, uint32_t face) {
     return bits;
 }
 
-Result<DevicePattern> upload_pattern(vk::Stream& stream, const Pattern& pattern, int segments) {
-    DevicePattern device;
-    device.segments = segments;
-    device.vertex_count = static_cast<uint32_t>(pattern.steps.size());
-    device.triangle_count = static_cast<uint32_t>(pattern.triangles.size());
-    AG_TRY(device.steps, vk::make_buffer_of(stream, std::span<const uint32_t>(pattern.steps),
-                                            "vertices of a pattern"));
-    AG_TRY(device.triangles, vk::make_buffer_of(stream, std::span<const uvec3>(pattern.triangles),
-                                                "triangles of a pattern"));
-    return device;
+Result<DevicePattern> upload_triangle_pattern(vk::Stream& stream, int segments) {
+    return upload_pattern(stream, triangle_pattern(segments), segments, 3);
+}
+
+Result<DevicePattern> upload_quad_pattern(vk::Stream& stream, int segments) {
+    return upload_pattern(stream, quad_pattern(segments), segments, 4);
 }
 
 struct DevicePatches::State {
@@ -268,6 +285,8 @@ void DevicePatches::evaluate(vk::Stream& stream, const DevicePattern& pattern, L
                              uint64_t normals) const {
     const State& s = *state_;
     AG_ASSERT(first_face + face_count <= s.layout.face_count, "faces of the mesh");
+    const vk::Kernel& kernel =
+        s.kernels.evaluate[(pattern.corners == 4 ? 2 : 0) + (levels == Levels::adaptive ? 1 : 0)];
     // Invocations have numbers of 32 bits.
     const uint32_t most = std::max(1u, (1u << 31) / pattern.vertex_count);
     for (uint32_t done = 0; done < face_count;) {
@@ -278,13 +297,13 @@ void DevicePatches::evaluate(vk::Stream& stream, const DevicePattern& pattern, L
                                                 .vertex_count = pattern.vertex_count,
                                                 .first_face = first_face + done,
                                                 .face_count = count,
-                                                .adaptive = levels == Levels::adaptive ? 1u : 0u,
+                                                .unused = 0,
                                                 .mesh = s.mesh.address(),
                                                 .steps = pattern.steps.address(),
                                                 .levels = s.levels.address(),
                                                 .positions = positions + offset,
                                                 .normals = normals + offset};
-        stream.run(s.kernels.evaluate, args,
+        stream.run(kernel, args,
                    vk::group_count(uint64_t{count} * pattern.vertex_count, shared::kPatchGroup));
         done += count;
     }

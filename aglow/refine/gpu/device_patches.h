@@ -18,13 +18,15 @@ namespace aglow::refine::gpu {
 /// A pattern on the device: stored once, instanced on every face.
 struct DevicePattern {
     int segments = 0;
+    uint32_t corners = 3;  ///< of its polygon
     uint32_t vertex_count = 0, triangle_count = 0;
     vk::Buffer steps;      ///< uint[vertex_count] Pattern::steps
     vk::Buffer triangles;  ///< uvec3[triangle_count]
 };
 
 /// Ready once a barrier() follows. Errors: out_of_memory.
-Result<DevicePattern> upload_pattern(vk::Stream& stream, const Pattern& pattern, int segments);
+Result<DevicePattern> upload_triangle_pattern(vk::Stream& stream, int segments);
+Result<DevicePattern> upload_quad_pattern(vk::Stream& stream, int segments);
 
 /// What stays the same of a coarse mesh, beside its topology.
 struct DevicePatchInput {

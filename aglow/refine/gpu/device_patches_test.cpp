@@ -137,12 +137,13 @@ private:
     const DevicePattern& pattern_of(uint32_t corners, int segments) {
         auto found = patterns_.find({corners, segments});
         if (found == patterns_.end()) {
-            const Pattern pattern =
-                corners == 3 ? triangle_pattern(segments) : quad_pattern(segments);
             found =
                 patterns_
-                    .emplace(std::pair(corners, segments),
-                             demand(refine::gpu::upload_pattern(test_.stream, pattern, segments)))
+                    .emplace(
+                        std::pair(corners, segments),
+                        demand(corners == 3
+                                   ? refine::gpu::upload_triangle_pattern(test_.stream, segments)
+                                   : refine::gpu::upload_quad_pattern(test_.stream, segments)))
                     .first;
         }
         return found->second;
@@ -226,8 +227,7 @@ TEST_CASE("twelve coarse triangles become 786 432 that a sine displaces") {
     displacement.settings.frequency = {20, 30, 25};
     const DevicePatches patches = demand(
         DevicePatches::create(test.stream, mesh.topology, {}, {.displacement = &displacement}));
-    const DevicePattern pattern =
-        demand(refine::gpu::upload_pattern(test.stream, triangle_pattern(256), 256));
+    const DevicePattern pattern = demand(refine::gpu::upload_triangle_pattern(test.stream, 256));
     CHECK(12 * pattern.triangle_count == 786432);
     const size_t count = size_t{12} * pattern.vertex_count;
     const vk::Buffer in_positions = test.upload(mesh.positions);

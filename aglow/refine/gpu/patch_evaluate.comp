@@ -6,6 +6,8 @@
 #include "aglow/shared/displacement.h"
 
 layout(constant_id = 0) const uint kPatchDisplacement = kNoDisplacement;
+layout(constant_id = 1) const uint kPatchCorners = 0u;
+layout(constant_id = 2) const bool kAdaptive = false;
 #include "aglow/refine/gpu/patch_surface.glsl"
 
 layout(local_size_x = kPatchGroup) in;
@@ -16,8 +18,8 @@ void main() {
     uint instance = index / args.vertex_count;
     if (instance >= args.face_count) return;
     uint face = args.first_face + instance;
-    PatchLevels levels = uniform_levels(args.segments);
-    if (args.adaptive == 1u) levels = args.levels.at[face];
+    PatchLevels levels = uniform_levels();
+    if (kAdaptive) levels = args.levels.at[face];
     SurfaceVertex vertex =
         patch_vertex(args.mesh.at[0], face, args.steps.at[index - instance * args.vertex_count],
                      args.segments, levels);

@@ -3,8 +3,8 @@
 // meet compute the vertices of their edge from the same numbers in the same order of operations, so
 // that they agree bitwise within one shader.
 //
-// Who includes it declares kPatchDisplacement, a k...Displacement, best as a constant_id: what the
-// mesh is displaced by.
+// Who includes it declares two uints, best as constant_ids: kPatchDisplacement, a k...Displacement,
+// what the mesh is displaced by; and kPatchCorners, 3 or 4 where all faces have so many, else 0.
 #include "aglow/shared/device_patch.h"
 #include "aglow/shared/pn_quad.h"
 
@@ -14,40 +14,54 @@ struct SurfaceVertex {
     vec2 coordinates;  // Pattern::coordinates
 };
 
-PatchLevels uniform_levels(uint segments) {
+// Of patch_vertex() where all edges have the segments of the pattern.
+PatchLevels uniform_levels() {
     PatchLevels levels;
-    for (int i = 0; i < 4; ++i) levels.edge[i] = float(segments);
+    for (int i = 0; i < 4; ++i) levels.edge[i] = 0.0f;
     levels.inner = 1.0f;
-    levels.continuous = 0u;
+    levels.continuous = kUniformLevels;
     return levels;
 }
 
-PatchPoints triangle_points(DevicePatch patch_data) {
+// Control points are read where they lie: arrays of a shader's own, indexed by what only the
+// invocation knows, are slow.
+PatchPoints triangle_points(PatchMesh mesh, uint index) {
     PatchPoints c;
-    for (int i = 0; i < 10; ++i) c.p[i] = patch_data.p[i];
+    for (int i = 0; i < 10; ++i) c.p[i] = mesh.patches.at[index].p[i];
     return c;
 }
 
-QuadPoints quad_points(DevicePatch patch_data) {
+QuadPoints quad_points(PatchMesh mesh, uint index) {
     QuadPoints c;
-    for (int i = 0; i < 12; ++i) c.p[i] = patch_data.p[i];
+    for (int i = 0; i < 12; ++i) c.p[i] = mesh.patches.at[index].p[i];
     return c;
 }
 
-vec3 inner_position(DevicePatch patch_data, uint corners, vec2 at) {
+vec3 inner_position(PatchMesh mesh, uint index, uint corners, vec2 at) {
     if (corners == 3u)
-        return patch_position(triangle_points(patch_data), 1.0f - at.x - at.y, at.x, at.y);
-    return quad_position(quad_points(patch_data), at.x, at.y);
+        return patch_position(triangle_points(mesh, index), 1.0f - at.x - at.y, at.x, at.y);
+    return quad_position(quad_points(mesh, index), at.x, at.y);
 }
 
-vec3 inner_normal(vec3 n[8], uint corners, vec2 at) {
+vec3 inner_normal(PatchMesh mesh, uint index, uint corners, vec2 at) {
     if (corners == 3u) {
         PatchNormals c;
-        for (int i = 0; i < 6; ++i) c.n[i] = n[i];
+        for (int i = 0; i < 6; ++i) c.n[i] = mesh.patches.at[index].n[i];
         return patch_normal(c, 1.0f - at.x - at.y, at.x, at.y);
     }
     QuadNormals c;
-    for (int i = 0; i < 8; ++i) c.n[i] = n[i];
+    for (int i = 0; i < 8; ++i) c.n[i] = mesh.patches.at[index].n[i];
+    return quad_normal(c, at.x, at.y);
+}
+
+vec3 inner_direction(PatchMesh mesh, uint index, uint corners, vec2 at) {
+    if (corners == 3u) {
+        PatchNormals c;
+        for (int i = 0; i < 6; ++i) c.n[i] = mesh.patch_directions.at[index].n[i];
+        return patch_normal(c, 1.0f - at.x - at.y, at.x, at.y);
+    }
+    QuadNormals c;
+    for (int i = 0; i < 8; ++i) c.n[i] = mesh.patch_directions.at[index].n[i];
     return quad_normal(c, at.x, at.y);
 }
 
@@ -98,7 +112,7 @@ vec2 uv_at(PatchMesh mesh, PatchFace face, vec2 at) {
 }
 
 // On the surface, of a height map: differences over one texel, by the chain rule.
-vec3 map_gradient(PatchMesh mesh, Displacement d, PatchFace face, DevicePatch patch_data, vec2 at) {
+vec3 map_gradient(PatchMesh mesh, Displacement d, PatchFace face, uint index, vec2 at) {
     float texel = exp2(d.level);
     vec2 stride = vec2(0.5f * texel / float(d.map.width), 0.5f * texel / float(d.map.height));
     vec2 uv = uv_at(mesh, face, at);
@@ -113,11 +127,11 @@ vec3 map_gradient(PatchMesh mesh, Displacement d, PatchFace face, DevicePatch pa
     vec3 by_x;
     vec3 by_y;
     if (face.corners == 3u) {
-        PatchPoints c = triangle_points(patch_data);
+        PatchPoints c = triangle_points(mesh, index);
         by_x = patch_derivative_v(c, 1.0f - at.x - at.y, at.x, at.y);
         by_y = patch_derivative_w(c, 1.0f - at.x - at.y, at.x, at.y);
     } else {
-        QuadPoints c = quad_points(patch_data);
+        QuadPoints c = quad_points(mesh, index);
         by_x = quad_derivative_x(c, at.x, at.y);
         by_y = quad_derivative_y(c, at.x, at.y);
     }
@@ -138,46 +152,60 @@ float map_height_at(PatchMesh mesh, Displacement d, PatchFace face, PatternPoint
 }
 
 // Moves a vertex by the mesh's displacement.
-SurfaceVertex displaced(PatchMesh mesh, PatchFace face, PatternPoint point, DevicePatch patch_data,
+SurfaceVertex displaced(PatchMesh mesh, PatchFace face, uint index, PatternPoint point,
                         SurfaceVertex vertex, vec3 direction) {
     Displacement d = mesh.displacement.at[0];
     d.kind = kPatchDisplacement;
     Field height = displacement_at(d, vertex.position);
     if (kPatchDisplacement == kHeightMapDisplacement) {
         height.value = map_height_at(mesh, d, face, point);
-        height.gradient = map_gradient(mesh, d, face, patch_data, vertex.coordinates);
+        height.gradient = map_gradient(mesh, d, face, index, vertex.coordinates);
     }
     vertex.position += direction * height.value;
     vertex.normal = displaced_normal(vertex.normal, height.gradient);
     return vertex;
 }
 
-vec3 direction_at(PatchMesh mesh, PatchFace face, uint index, PatternPoint point) {
-    PatchDirections directions = mesh.patch_directions.at[index];
-    if (point.edge == kInsidePattern)
-        return inner_normal(directions.n, face.corners, vec2(point.x, point.y));
-    uint next = point.edge + 1u == face.corners ? 0u : point.edge + 1u;
-    bool reversed = ((face.reversed >> point.edge) & 1u) != 0u;
-    vec3 a = directions.n[reversed ? next : point.edge];
-    vec3 b = directions.n[reversed ? point.edge : next];
-    return edge_normal(a, directions.n[face.corners + point.edge], b, point.t);
+// The two ends of an edge of a face and the edge's own place in its arrays, in the edge's direction.
+struct EdgePlaces {
+    uint a, b;
+    uint first, second;  // control points
+    uint middle;         // normal
+};
+
+EdgePlaces edge_places(PatchFace face, uint edge) {
+    uint next = edge + 1u == face.corners ? 0u : edge + 1u;
+    bool reversed = ((face.reversed >> edge) & 1u) != 0u;
+    uint points = face.corners + 2u * edge;
+    EdgePlaces r;
+    r.a = reversed ? next : edge;
+    r.b = reversed ? edge : next;
+    r.first = reversed ? points + 1u : points;
+    r.second = reversed ? points : points + 1u;
+    r.middle = face.corners + edge;
+    return r;
 }
 
-SurfaceVertex edge_vertex(PatchFace face, DevicePatch patch_data, PatternPoint point) {
-    uint next = point.edge + 1u == face.corners ? 0u : point.edge + 1u;
-    bool reversed = ((face.reversed >> point.edge) & 1u) != 0u;
-    uint first = face.corners + 2u * point.edge;
+vec3 direction_at(PatchMesh mesh, PatchFace face, uint index, PatternPoint point) {
+    if (point.edge == kInsidePattern)
+        return inner_direction(mesh, index, face.corners, vec2(point.x, point.y));
+    EdgePlaces at = edge_places(face, point.edge);
+    return edge_normal(mesh.patch_directions.at[index].n[at.a],
+                       mesh.patch_directions.at[index].n[at.middle],
+                       mesh.patch_directions.at[index].n[at.b], point.t);
+}
+
+SurfaceVertex edge_vertex(PatchMesh mesh, PatchFace face, uint index, PatternPoint point) {
+    EdgePlaces at = edge_places(face, point.edge);
     EdgePoints e;
-    e.first = patch_data.p[reversed ? first + 1u : first];
-    e.second = patch_data.p[reversed ? first : first + 1u];
-    vec3 a = patch_data.p[reversed ? next : point.edge];
-    vec3 b = patch_data.p[reversed ? point.edge : next];
+    e.first = mesh.patches.at[index].p[at.first];
+    e.second = mesh.patches.at[index].p[at.second];
     SurfaceVertex r;
     r.coordinates = vec2(point.x, point.y);
-    r.position = edge_position(a, e, b, point.t);
-    r.normal = edge_normal(patch_data.n[reversed ? next : point.edge],
-                           patch_data.n[face.corners + point.edge],
-                           patch_data.n[reversed ? point.edge : next], point.t);
+    r.position = edge_position(mesh.patches.at[index].p[at.a], e, mesh.patches.at[index].p[at.b],
+                               point.t);
+    r.normal = edge_normal(mesh.patches.at[index].n[at.a], mesh.patches.at[index].n[at.middle],
+                           mesh.patches.at[index].n[at.b], point.t);
     return r;
 }
 
@@ -185,7 +213,7 @@ SurfaceVertex edge_vertex(PatchFace face, DevicePatch patch_data, PatternPoint p
 SurfaceVertex patch_vertex(PatchMesh mesh, uint index, uint steps, uint segments,
                            PatchLevels levels) {
     PatchFace face = mesh.faces.at[index];
-    DevicePatch patch_data = mesh.patches.at[index];
+    if (kPatchCorners != 0u) face.corners = kPatchCorners;
     uint i = steps & 0xffffu;
     uint j = steps >> 16u;
     PatternPoint point;
@@ -196,11 +224,11 @@ SurfaceVertex patch_vertex(PatchMesh mesh, uint index, uint steps, uint segments
     SurfaceVertex vertex;
     if (point.edge == kInsidePattern) {
         vertex.coordinates = vec2(point.x, point.y);
-        vertex.position = inner_position(patch_data, face.corners, vertex.coordinates);
-        vertex.normal = inner_normal(patch_data.n, face.corners, vertex.coordinates);
+        vertex.position = inner_position(mesh, index, face.corners, vertex.coordinates);
+        vertex.normal = inner_normal(mesh, index, face.corners, vertex.coordinates);
     } else {
-        vertex = edge_vertex(face, patch_data, point);
+        vertex = edge_vertex(mesh, face, index, point);
     }
     if (kPatchDisplacement == kNoDisplacement) return vertex;
-    return displaced(mesh, face, point, patch_data, vertex, direction_at(mesh, face, index, point));
+    return displaced(mesh, face, index, point, vertex, direction_at(mesh, face, index, point));
 }

@@ -7,6 +7,7 @@
 #include "aglow/shared/displacement.h"
 
 layout(constant_id = 0) const uint kPatchDisplacement = kNoDisplacement;
+const uint kPatchCorners = 0u;
 #include "aglow/refine/gpu/patch_surface.glsl"
 
 layout(local_size_x = kPatchGroup) in;
