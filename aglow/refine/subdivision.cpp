@@ -24,6 +24,15 @@ using refine::cpu::OutputChannels;
 
 constexpr uint64_t kMostVertices = uint64_t{1} << 31;
 
+/// Whether numbers of refined faces, and of half-edges of the split that Catmull-Clark always
+/// makes, fit into 32 bits.
+bool faces_fit(const Topology& mesh, const SubdivisionOptions& options) {
+    const uint64_t corners = mesh.half_edge_count();
+    if (options.scheme == Scheme::loop)
+        return uint64_t{mesh.face_count()} << (2 * options.level) <= UINT32_MAX;
+    return corners << (2 * std::max(options.level, 2) - 2) <= UINT32_MAX;
+}
+
 Status check(const Topology& mesh, const SubdivisionOptions& options) {
     if (options.level < 0 || options.level > kDeepestLevel)
         return fail(Errc::bad_argument,
@@ -37,10 +46,10 @@ Status check(const Topology& mesh, const SubdivisionOptions& options) {
                                     f, mesh.face_size(f)));
     const uint64_t count =
         refine::refined_count(mesh, options.scheme, uint64_t{1} << options.level);
-    if (count > kMostVertices)
+    if (count > kMostVertices || !faces_fit(mesh, options))
         return fail(Errc::bad_argument,
-                    fmt::format("{} vertices at level {} are more than 2^31: use a lower level",
-                                count, options.level));
+                    fmt::format("{} vertices at level {} are too many: use a lower level", count,
+                                options.level));
     return {};
 }
 

@@ -36,9 +36,13 @@ inline constexpr int kDeepestLevel = 10;
 /// the start of edge_half to its end; then those inside each face. A vertex is computed once, from
 /// one sum, so that faces that meet there meet exactly.
 ///
-/// Rules  Loop: masks of the factored form; Catmull-Clark for polygons of any size. Boundaries and
-///        creases are cubic B-splines; semi-sharp creases lose 1 of their sharpness at each level;
-///        a vertex where more than two creases meet stays.
+/// Rules  OpenSubdiv's. Loop: masks of the factored form, which are Loop's own; Catmull-Clark for
+///        polygons of any size. Boundaries and creases are cubic B-splines of their own vertices,
+///        1/8, 3/4, 1/8 and 1/2, 1/2, whatever the valence; semi-sharp ones lose 1 of their
+///        sharpness at each level, and the last fraction blends the rules of both levels; a sharp
+///        vertex, or one where more than two creases meet, stays.
+///        The normal of a point on a crease is that of one side: counter-clockwise from its
+///        vertex_half, or from the direction in which edge_half runs.
 /// Thread safety  all const members, from any thread.
 /// Source Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987; Warren & Schaefer, "A
 ///        Factored Approach to Subdivision Surfaces", IEEE CG&A 2004; Catmull & Clark, "Recursively
@@ -49,6 +53,9 @@ public:
     /// Errors  bad_argument  level outside 0..kDeepestLevel, a face of Loop's that is no triangle,
     ///                       more than 2^31 refined vertices
     ///         out_of_memory
+    /// Cost    O(faces), and subdividing a ring for every combination of valences, boundaries and
+    ///         sharp edges at a face's corners, which are few. Rings, and what it costs to
+    ///         evaluate, grow with valences: the faces round a vertex with the square of theirs.
     static Result<Subdivision> create(const Topology& topology, const SubdivisionOptions& options);
     Subdivision(Subdivision&&) noexcept;
     Subdivision& operator=(Subdivision&&) noexcept;
@@ -67,7 +74,7 @@ public:
 
     /// Shapes  control [control_count() * width], refined [vertex_count() * width], both row by
     ///         row.
-    /// Errors  out_of_memory (Catmull-Clark, and Loop below level 5, keep some points aside)
+    /// Errors  out_of_memory (Catmull-Clark, and Loop beyond level 5, keep some points aside)
     /// Cost    O(refined), bound by memory: no level between is stored.
     /// Repeat  same bits for any number of threads.
     Status evaluate(std::span<const float> control, int width, std::span<float> refined) const;

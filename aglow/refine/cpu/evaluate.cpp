@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace aglow::refine::cpu {
@@ -48,30 +49,45 @@ AGLOW_INLINE void store_interleaved(const Lanes& x, const Lanes& y, const Lanes&
     std::memcpy(to + 2 * kColumnBlock, &third, sizeof(third));
 }
 
-/// kBlocks blocks of columns of a table times a ring.
+/// A table and what it is multiplied by.
+struct Product {
+    const float* table;
+    size_t stride;
+    uint32_t rows;
+    const float* ring;
+};
+
+/// Blocks of columns, which start at `columns`, of a product.
 template <uint32_t kBlocks>
-AGLOW_INLINE void sum_blocks(const float* table, size_t stride, uint32_t rows, const float* ring,
-                             float* to) {
+AGLOW_INLINE void sum_blocks(const Product& product, const size_t (&columns)[kBlocks], float* to) {
     Lanes x[kBlocks] = {}, y[kBlocks] = {}, z[kBlocks] = {};
-    for (uint32_t r = 0; r < rows; ++r, table += stride, ring += kChannels)
+    const float* table = product.table;
+    const float* ring = product.ring;
+    for (uint32_t r = 0; r < product.rows; ++r, table += product.stride, ring += kChannels)
         for (uint32_t b = 0; b < kBlocks; ++b) {
             Lanes weight;
-            load(table + b * kColumnBlock, weight);
+            load(table + columns[b], weight);
             x[b] += weight * ring[0];
             y[b] += weight * ring[1];
             z[b] += weight * ring[2];
         }
     for (uint32_t b = 0; b < kBlocks; ++b)
-        store_interleaved(x[b], y[b], z[b], to + b * kColumnBlock * kChannels);
+        store_interleaved(x[b], y[b], z[b], to + (columns[b] - columns[0]) * kChannels);
 }
 
-AGLOW_INLINE void sum_columns(const float* table, size_t stride, uint32_t rows, const float* ring,
-                              uint32_t begin, uint32_t end, float* points) {
-    uint32_t c = begin;
-    for (; c + 2 * kColumnBlock <= end; c += 2 * kColumnBlock)
-        sum_blocks<2>(table + c, stride, rows, ring, points + c * kChannels);
-    for (; c < end; c += kColumnBlock)
-        sum_blocks<1>(table + c, stride, rows, ring, points + c * kChannels);
+/// `count` columns from `first` on, at least a block of them. The last block ends with the last
+/// column, so that nothing else is written; what two blocks share comes out the same from both.
+AGLOW_INLINE void sum_run(const Product& product, size_t first, size_t count, float* to) {
+    constexpr size_t n = kColumnBlock;
+    for (; count >= 3 * n; count -= 3 * n, first += 3 * n, to += 3 * n * kChannels)
+        sum_blocks<3>(product, {first, first + n, first + 2 * n}, to);
+    const size_t last = first + count - n;
+    if (count > 2 * n)
+        sum_blocks<3>(product, {first, first + n, last}, to);
+    else if (count > n)
+        sum_blocks<2>(product, {first, last}, to);
+    else if (count > 0)
+        sum_blocks<1>(product, {last}, to - (first - last) * kChannels);
 }
 
 AGLOW_INLINE void copy(const float* points, uint32_t count, uint32_t first, OutputChannels to) {
@@ -110,77 +126,119 @@ AGLOW_INLINE void write_owned(const FaceTables& faces, const FaceOutput& output,
     copy(points + faces.corners * n * kChannels, faces.interior, output.interior, to);
 }
 
-/// The columns that the face owns of a table times its ring. Corners with their edges that others
-/// own are left out where they fill whole blocks.
-AGLOW_INLINE void sum_owned(const FaceTables& faces, const float* weights, uint32_t f,
-                            const float* ring, float* points) {
-    const uint32_t k = faces.face_class[f], rows = faces.rows[k], n = faces.segments;
-    const float* table = weights + faces.weight_begin[k];
-    uint32_t begin = 0;
-    if (n % kColumnBlock == 0) {
-        begin = faces.corners * n;
-        for (uint32_t i = 0; i < faces.corners; ++i)
-            if ((faces.output[f].owned & (17u << i)) != 0)
-                sum_columns(table, faces.stride, rows, ring, i * n, (i + 1) * n, points);
+/// All columns, then what the face owns of them.
+AGLOW_INLINE void sum_all(const FaceTables& faces, const FaceOutput& output, const Product& product,
+                          float* sums, OutputChannels to) {
+    for (size_t c = 0; c < faces.stride; c += kColumnBlock)
+        sum_blocks<1>(product, {c}, sums + c * kChannels);
+    write_owned(faces, output, sums, to);
+}
+
+/// Corner i and the edge after it, if the face owns them.
+AGLOW_INLINE void sum_edge(const FaceTables& faces, const FaceOutput& output, uint32_t i,
+                           const Product& product, float* sums, OutputChannels to) {
+    const uint32_t n = faces.segments;
+    const bool corner = (output.owned & (1u << i)) != 0, edge = (output.owned & (16u << i)) != 0;
+    const bool one_block = n <= kColumnBlock;
+    if (corner || (edge && one_block)) {
+        sum_blocks<1>(product, {size_t{i} * n}, sums);
+        if (corner) copy(sums, 1, output.corner[i], to);
+        if (edge && one_block) copy(sums + kChannels, n - 1, output.edge[i], to);
     }
-    sum_columns(table, faces.stride, rows, ring, begin, faces.stride, points);
+    if (edge && !one_block)
+        sum_run(product, size_t{i} * n + 1, n - 1, to.values + size_t{output.edge[i]} * kChannels);
+}
+
+/// Only what the face owns, straight to where it belongs: three numbers per point, and at least a
+/// block of them inside.
+AGLOW_INLINE void sum_owned(const FaceTables& faces, const FaceOutput& output,
+                            const Product& product, float* sums, OutputChannels to) {
+    for (uint32_t i = 0; i < faces.corners; ++i) sum_edge(faces, output, i, product, sums, to);
+    sum_run(product, size_t{faces.corners} * faces.segments, faces.interior,
+            to.values + size_t{output.interior} * kChannels);
 }
 
 AGLOW_TARGET_CLONES
-void sum_range(const FaceTables& faces, Channels points, OutputChannels to, size_t begin,
-               size_t end, Scratch& scratch) {
+void sum_range(const FaceTables& faces, const Weights& weights, Channels points, OutputChannels to,
+               size_t begin, size_t end, Scratch& scratch) {
+    float* sums = scratch.points.data()->weight;
+    const bool straight = to.width == kChannels && faces.segments >= kColumnBlock;
+    Product product = {nullptr, faces.stride, 0, scratch.ring.data()};
+    for (size_t i = begin; i < end; ++i) {
+        const auto f = static_cast<uint32_t>(i);
+        const uint32_t k = faces.face_class[f];
+        product.table = weights.data()->weight + faces.weight_begin[k];
+        product.rows = faces.rows[k];
+        gather(ring_of(faces, f), points, scratch.ring.data());
+        if (straight)
+            sum_owned(faces, faces.output[f], product, sums, to);
+        else
+            sum_all(faces, faces.output[f], product, sums, to);
+    }
+}
+
+/// Points from the first of them on, in parts of their extent: differences of these lose fewer
+/// digits, and products of differences do not underflow. Directions stay.
+AGLOW_INLINE void make_relative(float* ring, uint32_t rows) {
+    const float origin[kChannels] = {ring[0], ring[1], ring[2]};
+    float extent = 0;
+    for (uint32_t i = 0; i < rows * kChannels; ++i) {
+        ring[i] -= origin[i % kChannels];
+        extent = std::max(extent, std::abs(ring[i]));
+    }
+    const float scale = extent > 0 ? 1 / extent : 0.0f;
+    for (uint32_t i = 0; i < rows * kChannels; ++i) ring[i] *= scale;
+}
+
+AGLOW_INLINE void inverse_root(const Lanes& square, Lanes& result) {
+    constexpr float kTiny = std::numeric_limits<float>::min();
+    const Lanes safe = square > kTiny ? square : Lanes{} + kTiny;
+    float root[kColumnBlock];
+    std::memcpy(root, &safe, sizeof(root));
+    for (float& r : root) r = std::sqrt(r);
+    load(root, result);
+    result = 1 / result;
+}
+
+/// Unit vectors along u x v, 0 where that is 0. The tangents are the products of two tables and a
+/// ring, and stay in registers.
+AGLOW_INLINE void sum_normal_block(const float* u, const float* v, size_t stride, uint32_t rows,
+                                   const float* ring, float* to) {
+    Lanes ux = {}, uy = {}, uz = {}, vx = {}, vy = {}, vz = {};
+    for (uint32_t r = 0; r < rows; ++r, u += stride, v += stride, ring += kChannels) {
+        Lanes weight_u, weight_v;
+        load(u, weight_u);
+        load(v, weight_v);
+        ux += weight_u * ring[0];
+        uy += weight_u * ring[1];
+        uz += weight_u * ring[2];
+        vx += weight_v * ring[0];
+        vy += weight_v * ring[1];
+        vz += weight_v * ring[2];
+    }
+    const Lanes x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    const Lanes square = x * x + y * y + z * z;
+    Lanes scale;
+    inverse_root(square, scale);
+    store_interleaved(x * scale, y * scale, z * scale, to);
+}
+
+AGLOW_TARGET_CLONES
+void normal_range(const FaceTables& faces, const LimitWeights& limit, Channels points,
+                  OutputChannels to, size_t begin, size_t end, Scratch& scratch) {
     float* ring = scratch.ring.data();
     float* sums = scratch.points.data()->weight;
     for (size_t i = begin; i < end; ++i) {
         const auto f = static_cast<uint32_t>(i);
+        const uint32_t rows = faces.rows[faces.face_class[f]];
+        const size_t table = faces.weight_begin[faces.face_class[f]];
         gather(ring_of(faces, f), points, ring);
-        sum_owned(faces, faces.weights.data()->weight, f, ring, sums);
+        make_relative(ring, rows);
+        for (uint32_t c = 0; c < faces.stride; c += kColumnBlock)
+            sum_normal_block(limit.tangent_u.data()->weight + table + c,
+                             limit.tangent_v.data()->weight + table + c, faces.stride, rows, ring,
+                             sums + c * kChannels);
         write_owned(faces, faces.output[f], sums, to);
-    }
-}
-
-/// Points from the first of them on: differences of these lose fewer digits.
-AGLOW_INLINE void move_to_origin(float* ring, uint32_t rows) {
-    const float origin[kChannels] = {ring[0], ring[1], ring[2]};
-    for (uint32_t r = 0; r < rows; ++r)
-        for (uint32_t c = 0; c < kChannels; ++c) ring[r * kChannels + c] -= origin[c];
-}
-
-struct LimitScratch {
-    explicit LimitScratch(const FaceTables& faces) : position(faces), u(faces), v(faces) {}
-    Scratch position, u, v;
-};
-
-/// u becomes the normals.
-AGLOW_INLINE void make_normals(float* u, const float* v, uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i, u += kChannels, v += kChannels) {
-        const vec3 n = cross(vec3{u[0], u[1], u[2]}, vec3{v[0], v[1], v[2]});
-        const float length = std::sqrt(dot(n, n));
-        const float scale = length > 0 ? 1 / length : 0.0f;
-        u[0] = n.x * scale;
-        u[1] = n.y * scale;
-        u[2] = n.z * scale;
-    }
-}
-
-AGLOW_TARGET_CLONES
-void limit_range(const FaceTables& faces, const LimitWeights& limit, Channels points,
-                 OutputChannels positions, OutputChannels normals, size_t begin, size_t end,
-                 LimitScratch& scratch) {
-    float* ring = scratch.position.ring.data();
-    float* u = scratch.u.points.data()->weight;
-    float* v = scratch.v.points.data()->weight;
-    float* position = scratch.position.points.data()->weight;
-    for (size_t i = begin; i < end; ++i) {
-        const auto f = static_cast<uint32_t>(i);
-        gather(ring_of(faces, f), points, ring);
-        sum_owned(faces, limit.position.data()->weight, f, ring, position);
-        move_to_origin(ring, faces.rows[faces.face_class[f]]);
-        sum_owned(faces, limit.tangent_u.data()->weight, f, ring, u);
-        sum_owned(faces, limit.tangent_v.data()->weight, f, ring, v);
-        make_normals(u, v, faces.stride);
-        write_owned(faces, faces.output[f], position, positions);
-        write_owned(faces, faces.output[f], u, normals);
     }
 }
 
@@ -204,16 +262,16 @@ void sum_stencils(const Stencils& stencils, Channels from, OutputChannels to) {
 void sum_faces(const FaceTables& faces, Channels points, OutputChannels to) {
     parallel_for(faces.face_count(), kFaceGrain, [&](size_t begin, size_t end) {
         Scratch scratch(faces);
-        sum_range(faces, points, to, begin, end, scratch);
+        sum_range(faces, faces.weights, points, to, begin, end, scratch);
     });
 }
 
 void sum_limits(const FaceTables& faces, const LimitWeights& limit, Channels points,
                 std::span<vec3> positions, std::span<vec3> normals) {
     parallel_for(faces.face_count(), kFaceGrain, [&](size_t begin, size_t end) {
-        LimitScratch scratch(faces);
-        limit_range(faces, limit, points, {&positions.data()->x}, {&normals.data()->x}, begin, end,
-                    scratch);
+        Scratch scratch(faces);
+        sum_range(faces, limit.position, points, {&positions.data()->x}, begin, end, scratch);
+        normal_range(faces, limit, points, {&normals.data()->x}, begin, end, scratch);
     });
 }
 

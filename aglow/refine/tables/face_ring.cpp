@@ -23,12 +23,12 @@ void turn_round(const Topology& mesh, uint32_t start, const Visit& visit) {
 }  // namespace
 
 uint32_t FaceRing::place(uint32_t v) {
-    const auto found = std::ranges::find(vertices_, v);
-    if (found == vertices_.end()) {
+    if (last_face_[v] != face_) {
+        last_face_[v] = face_;
+        places_[v] = static_cast<uint32_t>(vertices_.size());
         vertices_.push_back(v);
-        return static_cast<uint32_t>(vertices_.size() - 1);
     }
-    return static_cast<uint32_t>(found - vertices_.begin());
+    return places_[v];
 }
 
 void FaceRing::turn(uint32_t start) {
@@ -49,10 +49,11 @@ void FaceRing::turn(uint32_t start) {
 }
 
 void FaceRing::find(uint32_t face) {
+    face_ = face;
     vertices_.clear();
     key_.clear();
     for (uint32_t h = mesh_.face_begin[face]; h < mesh_.face_begin[face + 1]; ++h)
-        vertices_.push_back(mesh_.vertex[h]);
+        place(mesh_.vertex[h]);
     for (uint32_t h = mesh_.face_begin[face]; h < mesh_.face_begin[face + 1]; ++h) turn(h);
 }
 

@@ -12,7 +12,8 @@ namespace aglow::refine {
 /// depends on: two faces with the same key are refined by the same sums of their rings.
 class FaceRing {
 public:
-    explicit FaceRing(const Topology& mesh) : mesh_(mesh) {}
+    explicit FaceRing(const Topology& mesh)
+        : mesh_(mesh), places_(mesh.vertex_count()), last_face_(mesh.vertex_count(), kNone) {}
 
     void find(uint32_t face);
     /// The corners of the face first, then the others as they are met turning round each corner.
@@ -25,7 +26,10 @@ private:
     uint32_t place(uint32_t v);
 
     const Topology& mesh_;
+    uint32_t face_ = kNone;
     std::vector<uint32_t> vertices_, key_;
+    std::vector<uint32_t> places_;     ///< [vertex] in the ring of last_face_
+    std::vector<uint32_t> last_face_;  ///< [vertex] whose ring it was found in
 };
 
 /// A part of a mesh round some faces of it, the inside: all faces that touch one of its vertices.
