@@ -169,7 +169,7 @@ void Patches::update(const PatchInput& input, PatchControl& control) const {
 void Patches::evaluate(const PatchControl& control, const Tessellation& tessellation,
                        std::span<vec3> positions) const {
     AG_ASSERT(positions.size() == tessellation.vertex_count(), "room for all vertices");
-    if (tessellation.segments > 0)
+    if (tessellation.segments > 0 && tessellation.density.empty())
         refine::cpu::evaluate_uniform(topology_, control, tessellation, positions);
     else
         refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, positions, {});

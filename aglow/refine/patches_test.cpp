@@ -280,6 +280,41 @@ TEST_CASE("faces meet bitwise on their edges, whatever the levels, normals, tags
     }
 }
 
+TEST_CASE("irregular patterns draw vertices to where they are wanted, and faces still meet") {
+    PatchMesh mesh = random_sheet(21, 4, 4, 0);
+    Pcg32 random(21);
+    Tessellation whole = demand(Tessellation::uniform(mesh.topology, 9));
+    const Topology cut = cut_all(mesh.topology);
+    Tessellation parts = demand(Tessellation::uniform(cut, 9));
+    const std::vector<uint32_t> sources = refined_sources(cut, parts, mesh.topology, whole);
+    for (size_t v = 0; v < mesh.positions.size(); ++v)
+        whole.density.push_back(0.2f + 4 * random.uniform());
+    parts.density = whole.density;
+    const Evaluated one = evaluate(mesh, {}, mesh.input(), whole);
+    const Patches patches = demand(Patches::create(mesh.topology, {}));
+    std::vector<vec3> other(parts.vertex_count());
+    patches.evaluate(one.control, parts, other);
+    for (size_t v = 0; v < other.size(); ++v) CHECK(same_bits(other[v], one.positions[sources[v]]));
+
+    const Evaluated even = evaluate(mesh, {.shape = PatchShape::flat}, mesh.input(),
+                                    demand(Tessellation::uniform(mesh.topology, 9)));
+    const Evaluated drawn = evaluate(mesh, {.shape = PatchShape::flat}, mesh.input(), whole);
+    for (uint32_t e = 0; e < mesh.topology.edge_count(); ++e) {
+        const uint32_t h = mesh.topology.edge_half[e];
+        const uint32_t a = mesh.topology.vertex[h], b = mesh.topology.end(h);
+        for (uint32_t v = whole.edge_first[e]; v < whole.edge_first[e + 1]; ++v)
+            CHECK((dot(drawn.positions[v] - even.positions[v],
+                       mesh.positions[b] - mesh.positions[a]) > 0) ==
+                  (whole.density[b] > whole.density[a]));
+    }
+    for (const uvec3 t : whole.triangles) {
+        const auto area = [&](const std::vector<vec3>& p) {
+            return cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
+        };
+        CHECK(dot(area(drawn.positions), area(even.positions)) > 0);  // nothing folds
+    }
+}
+
 TEST_CASE("the rim of a cylinder stays round where the cap and the side have their own normals") {
     // A ring of quads and a fan of triangles on top of it, radius 1.
     constexpr uint32_t kSides = 12;

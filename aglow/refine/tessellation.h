@@ -44,6 +44,12 @@ struct Tessellation {
     std::vector<uint16_t> face_segments;  ///< [face] of its pattern
     std::vector<float> face_inner;        ///< [face] PatchLevels::inner
 
+    /// Irregular patterns: vertices of triangles are drawn towards corners of greater density (of
+    /// curvature, or nearness to a viewer), > 0, [vertex] of the mesh that patches are made from.
+    /// Empty: even. Edges follow from their own ends, so that nothing opens; quads stay even
+    /// inside.
+    std::vector<float> density;
+
     // Of the topology.
     std::vector<uint32_t> vertex_half;  ///< [vertex]
     std::vector<uint32_t> edge_half;    ///< [edge]

@@ -197,6 +197,26 @@ AG_FN PatternPoint quad_pattern_point(uint i, uint j, uint segments, PatchLevels
     return inner_pattern_point(i, j, segments, coarser, levels.inner);
 }
 
+// A parameter of an edge drawn towards the end with the greater density. 0 and 1 stay.
+AG_FN float dense_parameter(float t, float density_a, float density_b) {
+    float s = (1.0f - t) * density_a;
+    float r = t * density_b;
+    return r / (s + r);
+}
+
+// Coordinates on a triangle likewise, by the densities at its corners: on its edges what
+// dense_parameter() says. Straight lines stay straight, so that nothing folds.
+AG_FN vec2 dense_coordinates(vec2 at, vec3 densities) {
+    float u = (1.0f - at.x - at.y) * densities.x;
+    float v = at.x * densities.y;
+    float w = at.y * densities.z;
+    vec2 r;
+    float sum = u + v + w;
+    r.x = v / sum;
+    r.y = w / sum;
+    return r;
+}
+
 AG_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(aglow::shared::PatchLevels) == 24);

@@ -50,6 +50,12 @@ private:
         return displacement_ && displacement_->settings.kind == shared::kHeightMapDisplacement;
     }
     FacePlace place_on(uint32_t h, float t) const;
+    vec3 densities_of(uint32_t triangle) const {
+        const auto at = [&](uint32_t i) {
+            return tessellation_.density[topology_.vertex[topology_.face_begin[triangle] + i]];
+        };
+        return {at(0), at(1), at(2)};
+    }
     float map_height(vec2 uv) const;
     float map_height_on_edge(uint32_t h, float t) const;
     float map_height_at(uint32_t v) const;
@@ -187,7 +193,9 @@ void Evaluator::edge(uint32_t e) const {
     const auto continuous = static_cast<uint32_t>(tessellation_.levels);
     const uint32_t segments = shared::edge_segments(level, continuous);
     for (uint32_t i = 1; i < segments; ++i) {
-        const float t = shared::edge_parameter(forward ? i : segments - i, level, continuous);
+        float t = shared::edge_parameter(forward ? i : segments - i, level, continuous);
+        if (!tessellation_.density.empty())
+            t = shared::dense_parameter(t, tessellation_.density[low], tessellation_.density[high]);
         const float along = forward ? t : 1 - t;
         SurfacePoint point;
         point.position = shared::edge_position(control_.positions[low], control_.edges[own],
@@ -223,9 +231,14 @@ void Evaluator::face(uint32_t f) const {
     uint32_t next = tessellation_.face_first[f];
     for (uint32_t j = 1; j < n; ++j)
         for (uint32_t i = 1; is_triangle ? i + j < n : i < n; ++i) {
-            const shared::PatternPoint at =
+            shared::PatternPoint at =
                 is_triangle ? shared::triangle_pattern_point(i, j, n, levels, reversed)
                             : shared::quad_pattern_point(i, j, n, levels, reversed);
+            if (is_triangle && !tessellation_.density.empty()) {
+                const vec2 drawn = shared::dense_coordinates({at.x, at.y}, densities_of(f));
+                at.x = drawn.x;
+                at.y = drawn.y;
+            }
             const float u = 1 - at.x - at.y;
             const SurfacePoint point =
                 is_triangle ? SurfacePoint{shared::patch_position(triangle, u, at.x, at.y),
