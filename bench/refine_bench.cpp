@@ -57,12 +57,14 @@ double seconds(const Work& work) {
 
 struct Point {
     float x = 0, y = 0, z = 0;
+    // NOLINTBEGIN(readability-identifier-naming): the names that OpenSubdiv calls.
     void Clear() { x = y = z = 0; }
     void AddWithWeight(const Point& p, float w) {
         x += w * p.x;
         y += w * p.y;
         z += w * p.z;
     }
+    // NOLINTEND(readability-identifier-naming)
 };
 
 CoarseMesh torus_of_quads(uint32_t n) {

@@ -20,7 +20,6 @@ namespace aglow {
 namespace {
 
 using refine::cpu::Channels;
-using refine::cpu::OutputChannels;
 
 constexpr uint64_t kMostVertices = uint64_t{1} << 31;
 

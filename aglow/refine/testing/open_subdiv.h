@@ -30,12 +30,14 @@ namespace osd = OpenSubdiv;
 /// A point as OpenSubdiv wants it; in double precision, since tangents are small differences.
 struct OsdPoint {
     double x = 0, y = 0, z = 0;
+    // NOLINTBEGIN(readability-identifier-naming): the names that OpenSubdiv calls.
     void Clear() { x = y = z = 0; }
     void AddWithWeight(const OsdPoint& p, double w) {
         x += w * p.x;
         y += w * p.y;
         z += w * p.z;
     }
+    // NOLINTEND(readability-identifier-naming)
 };
 
 inline std::unique_ptr<osd::Far::TopologyRefiner> make_refiner(const Topology& mesh, Scheme scheme,
