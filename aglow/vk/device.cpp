@@ -88,6 +88,7 @@ Result<VkDevice> create_device(const PhysicalDevice& physical) {
     all.features.tessellationShader = drawing.tessellation_shader;
     all.features.vertexPipelineStoresAndAtomics = drawing.shader_stores;
     all.features.fragmentStoresAndAtomics = drawing.shader_stores;
+    all.features.sampleRateShading = drawing.sample_shading;
     all.features.fillModeNonSolid = drawing.lines;
     auto add = [&](bool wanted, auto& more) {
         if (wanted) more.pNext = std::exchange(features.pNext, &more);

@@ -107,7 +107,8 @@ VkPipelineColorBlendAttachmentState blending(Blend blend) {
 }
 
 Result<Pipeline> make_pipeline(VkDevice device, VkPipelineLayout layout, const Stages& stages,
-                               const GraphicsState& state, std::string_view doing) {
+                               const GraphicsState& state, bool shade_samples,
+                               std::string_view doing) {
     const TargetFormat& target = state.target;
     bool colors = target.color != VK_FORMAT_UNDEFINED;
     bool depths = target.depth != VK_FORMAT_UNDEFINED;
@@ -136,6 +137,8 @@ Result<Pipeline> make_pipeline(VkDevice device, VkPipelineLayout layout, const S
     VkPipelineMultisampleStateCreateInfo samples{};
     samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(target.samples);
+    samples.sampleShadingEnable = shade_samples;
+    samples.minSampleShading = 1;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = depths;
@@ -226,7 +229,8 @@ Result<GraphicsPipeline> GraphicsPipeline::create(const Gpu& gpu, std::string_vi
     pipeline.owned_ = std::make_shared<Owned>();
     AG_TRY(pipeline.owned_->layout, make_layout(device, stages.flags(), kPushBytes, doing));
     AG_TRY(pipeline.owned_->pipeline,
-           make_pipeline(device, pipeline.layout(), stages, state, doing));
+           make_pipeline(device, pipeline.layout(), stages, state,
+                         state.sample_shading && gpu->physical().drawing.sample_shading, doing));
     pipeline.rate_ = std::make_shared<KernelRate>();
     gpu->set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline.pipeline()), name);
     return pipeline;

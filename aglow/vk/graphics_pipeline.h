@@ -36,6 +36,8 @@ struct GraphicsState {
     VkCompareOp nearer = VK_COMPARE_OP_GREATER;  ///< which depths are drawn over which
     bool write_depth = true;
     Blend blend = Blend::none;
+    /// Fragment shaders run for every sample, where the device can do that.
+    bool sample_shading = false;
     bool lines = false;                     ///< outlines of polygons
     std::span<const uint32_t> constants{};  ///< [i] is the value of constant_id i, in all stages
 };

@@ -165,6 +165,7 @@ void examine_drawing(PhysicalDevice& device, bool version_1_3, const Extensions&
     drawing.mesh_shader = mesh.meshShader && mesh.taskShader;
     drawing.shader_stores =
         all.features.vertexPipelineStoresAndAtomics && all.features.fragmentStoresAndAtomics;
+    drawing.sample_shading = all.features.sampleRateShading;
     drawing.lines = all.features.fillModeNonSolid;
 }
 

@@ -16,9 +16,10 @@ struct DrawingFeatures {
     bool tessellation_shader = false;
     bool transform_feedback = false;  ///< implies geometry_shader
     bool mesh_shader = false;
-    bool shader_stores = false;  ///< vertex and fragment shaders can write to buffers
-    bool lines = false;          ///< polygons can be drawn as their outlines
-    uint64_t granularity = 1;    ///< bytes that keep images and buffers apart in memory
+    bool shader_stores = false;   ///< vertex and fragment shaders can write to buffers
+    bool sample_shading = false;  ///< fragment shaders can run for every sample
+    bool lines = false;           ///< polygons can be drawn as their outlines
+    uint64_t granularity = 1;     ///< bytes that keep images and buffers apart in memory
 };
 
 /// A device that a driver offers, and what opening it needs to know.

@@ -75,6 +75,20 @@ Result<std::unique_ptr<FrameRenderer>> rays_renderer(const Footage& footage, Acc
     return on_cpu();
 }
 
+Result<std::unique_ptr<FrameRenderer>> raster_renderer(const Footage& footage,
+                                                       const RasterOptions& options,
+                                                       Console& console) {
+    const std::string& device = console.options().device;
+    if (device == "cpu")
+        return fail(Errc::unsupported,
+                    "--engine raster draws on a GPU; leave out --device cpu, or take --engine "
+                    "rays (a Vulkan driver such as mesa-vulkan-drivers makes a GPU of the CPU)");
+    AG_TRY(const std::optional<Gpu> hardware, gpu_to_use(console));
+    if (hardware) return make_raster_frame_renderer(*hardware, footage, options);
+    AG_TRY(const std::optional<Gpu> any, choose_device("gpu"));
+    return make_raster_frame_renderer(*any, footage, options);
+}
+
 std::unique_ptr<FrameRenderer> path_renderer(const Scene& scene, int bounces, int samples,
                                              uint64_t seed) {
     return std::make_unique<PathRenderer>(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "aglow/render/frames.h"
+#include "aglow/render/raster.h"
 #include "console.h"
 
 #include <memory>
@@ -13,6 +14,12 @@ namespace aglow::cli {
 /// Errors  of the makers; bad_argument where `accel` is set and the CPU draws.
 Result<std::unique_ptr<FrameRenderer>> rays_renderer(const Footage& footage, Accel accel,
                                                      Console& console);
+
+/// Engine `raster`, on a GPU of any kind where none is asked for by name.
+/// Errors  of the maker; unsupported where there is no GPU, or --device cpu.
+Result<std::unique_ptr<FrameRenderer>> raster_renderer(const Footage& footage,
+                                                       const RasterOptions& options,
+                                                       Console& console);
 
 /// Engine `path` on the CPU.
 std::unique_ptr<FrameRenderer> path_renderer(const Scene& scene, int bounces, int samples,

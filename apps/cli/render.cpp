@@ -26,10 +26,15 @@ constexpr int kLongestSide = 16384;
 constexpr int kMostSamples = 1 << 20;
 constexpr int kRaysSamples = 16;
 constexpr int kPathSamples = 64;
+constexpr int kRasterSamples = 4;
 constexpr int kReflections = 2;
 constexpr double kFps = 30;
 
-enum class Engine : uint8_t { rays, path };
+enum class Engine : uint8_t { rays, path, raster };
+
+std::string name_of(Engine engine) {
+    return engine == Engine::rays ? "rays" : engine == Engine::path ? "path" : "raster";
+}
 
 struct Size {
     int width = 1280, height = 720;
@@ -64,19 +69,25 @@ Result<Size> parse_size(const std::string& text) {
 Table table(Options& o) {
     Table rows = {
         {"IN", file(&o.input), "",
-         "scene; --engine rays shows the light that `aglow bake` left in "
+         "scene; --engine rays and raster show the light that `aglow bake` left in "
          "it, else light that is direct",
          Need::required},
         {"-o,--output", file(&o.output), "OUT",
          "image: .png (tone-mapped), .exr or .hdr (luminance, cd/m^2)", Need::required},
         {"--engine",
-         choice<Engine>(&o.engine, {{"rays", Engine::rays}, {"path", Engine::path}}, {"raster"}),
-         "NAME", "rays (default): ray tracing over baked light; path: brute-force path tracing"},
+         choice<Engine>(
+             &o.engine,
+             {{"rays", Engine::rays}, {"path", Engine::path}, {"raster", Engine::raster}}),
+         "NAME",
+         "rays (default): ray tracing over baked light; path: brute-force path tracing; raster: "
+         "triangles on a GPU, without shadows or reflections but those that are baked"},
         {"--camera", text(&o.camera), "N|NAME|auto",
          "camera of the scene; auto (default): the first, else one that shows all"},
         {"--size", parsed(&o.size, parse_size), "WxH", "pixels (default 1280x720)"},
         {"--samples", whole(&o.samples, 1, kMostSamples), "N",
-         fmt::format("rays or paths per pixel (default {} and {})", kRaysSamples, kPathSamples)},
+         fmt::format("rays or paths per pixel (default {} and {}); with --engine raster samples of "
+                     "edges (default {})",
+                     kRaysSamples, kPathSamples, kRasterSamples)},
         {"--reflections", whole(&o.reflections, 0, kMostReflections), "N",
          fmt::format("mirrors in mirrors with --engine rays (default {}); 0: no highlights either",
                      kReflections)},
@@ -109,6 +120,15 @@ Status check_engine(const Options& options) {
         return fail(Errc::bad_argument,
                     "--engine rays shows light that is baked; give --bounces to `aglow bake`, or "
                     "take --engine path");
+    if (options.engine == Engine::raster && options.bounces)
+        return fail(Errc::bad_argument,
+                    "--engine raster shows light that is baked; give --bounces to `aglow bake`, or "
+                    "take --engine path");
+    if (options.engine == Engine::raster &&
+        (options.reflections || options.shading || options.accel))
+        return fail(Errc::bad_argument,
+                    "--engine raster traces no rays; leave out --reflections, --shading and "
+                    "--accel, or take --engine rays");
     if (options.engine == Engine::path && (options.reflections || options.shading || options.accel))
         return fail(Errc::bad_argument,
                     "--engine path is diffuse and runs on the CPU; leave out --reflections, "
@@ -175,6 +195,12 @@ Status open_source(const Options& options, Scene& scene, Console& console, Sourc
             "{}: nothing in the scene shines; add --sky, --sun or --light, or light it with `aglow "
             "bake`",
             options.input.string()));
+    if (options.engine == Engine::raster) {
+        const RasterOptions raster{.samples = options.samples.value_or(kRasterSamples)};
+        AG_TRY(source.renderer,
+               raster_renderer({scene, source.lit ? &*source.lit : nullptr}, raster, console));
+        return {};
+    }
     const Footage footage{scene,
                           source.lit ? &*source.lit : nullptr,
                           {.samples = options.samples.value_or(kRaysSamples),
@@ -297,7 +323,7 @@ Result<int> run(const Options& options, Console& console) {
 
     Json report = {{"scene", options.input.string()},
                    {"device", device_name(*source.renderer)},
-                   {"engine", options.engine == Engine::rays ? "rays" : "path"},
+                   {"engine", name_of(options.engine)},
                    {"size", {options.size.width, options.size.height}}};
     sequence.tell(report);
     const double all_seconds = total.seconds();

@@ -80,6 +80,23 @@ class Pictures(harness.AglowTest):
         self.assertIn("not enough memory for 16384 x 16384 pixels", done.stderr)
         self.assertFalse((self.dir / "huge.png").exists())
 
+    def test_triangles_are_drawn_as_rays_see_them(self):
+        gpus = self.gpus()
+        if not gpus:
+            self.skipTest("no GPU")
+        size = ("--size", "48x32")
+        report = self.json_of("render", "lit.glb", "-o", "raster.exr", *size, "--engine", "raster",
+                              "--device", gpus[0])
+        self.assertEqual((report["engine"], report["device"]), ("raster", gpus[0]))
+        self.assertEqual([p["pass"] for p in report["passes"] if p["pass"] != "other"],
+                         ["pose", "draw", "read", "host"])
+        self.run_aglow("render", "lit.glb", "-o", "rays.exr", *size, "--reflections", "0")
+        self.run_aglow("compare", "raster.exr", "rays.exr", "--max-rmse", "10%")
+        self.run_aglow("render", "lit.glb", "-o", "r.png", "--engine", "raster", "--device", "cpu",
+                       code=5, says="draws on a GPU")
+        self.run_aglow("render", "lit.glb", "-o", "r.png", "--engine", "raster", "--reflections",
+                       "1", code=1, says="traces no rays")
+
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
                      "--rays", "256", "--device", "gpu:llvmpipe")

@@ -6,6 +6,7 @@
 #include "aglow/render/cpu/draw.h"
 #include "aglow/render/gpu/device_tables.h"
 #include "aglow/render/gpu/motion_groups.h"
+#include "aglow/render/gpu/pass_times.h"
 #include "aglow/render/gpu/wavefront.h"
 #include "aglow/render/tables/resting_light.h"
 #include "aglow/vk/device.h"
@@ -34,22 +35,6 @@ std::string structure_names(uint32_t kinds) {
 }
 
 uint64_t whole(uvec2 words) { return uint64_t{words.y} << 32 | words.x; }
-
-/// GPU time of the passes in the order of their first work; what is left of `wall` seconds, in
-/// which the GPU did nothing, comes last.
-std::vector<PassTime> pass_times(const std::vector<vk::Timing>& timings, double wall) {
-    std::vector<PassTime> passes;
-    for (const vk::Timing& timing : timings) {
-        const std::string pass = timing.label.empty() ? "other" : timing.label;
-        auto known = std::find_if(passes.begin(), passes.end(),
-                                  [&](const PassTime& p) { return p.pass == pass; });
-        if (known == passes.end()) known = passes.insert(passes.end(), {pass, 0});
-        known->seconds += timing.seconds;
-        wall -= timing.seconds;
-    }
-    passes.push_back({"host", std::max(wall, 0.0)});
-    return passes;
-}
 
 class GpuFrameRenderer : public FrameRenderer {
 public:

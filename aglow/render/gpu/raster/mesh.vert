@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vertices of triangles that lie in memory.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "aglow/render/gpu/raster/raster.glsl"
+
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) out vec2 barycentrics;  // on the face
+layout(location = 3) flat out uint face;
+
+void main() {
+    RasterGeometryPtr geometry = args.geometry;
+    uint face_triangles = geometry.at[0].face_triangles;
+    uint place = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    uint within = place % face_triangles;
+    face = face_at(place / face_triangles);
+    uvec3 triangle = geometry.at[0].triangles.at[face * face_triangles + within];
+    uint vertex = corner == 0u ? triangle.x : corner == 1u ? triangle.y : triangle.z;
+    position = geometry.at[0].positions.at[vertex];
+    normal = geometry.at[0].normals.at[vertex];
+    barycentrics = geometry.at[0].barycentrics.at[3u * within + corner];
+    gl_Position = clip_position(position);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/render/gpu/raster/mesh.vert.h"
+#include "aglow/render/gpu/raster/vertex_source.h"
+#include "aglow/shared/raster.h"
+
+#include <array>
+#include <utility>
+
+namespace aglow::render::gpu {
+namespace {
+
+class PlainSource : public VertexSource {
+public:
+    PlainSource(const mesh::gpu::DeviceSurfaces& surfaces, vk::Buffer geometry,
+                vk::Buffer barycentrics)
+        : surfaces_(surfaces),
+          geometry_(std::move(geometry)),
+          barycentrics_(std::move(barycentrics)) {}
+
+    std::span<const uint32_t> vertex_shader() const override { return shaders::mesh_vert; }
+
+    Status update(vk::Stream& stream) override {
+        const shared::RasterGeometry geometry{surfaces_.positions(),
+                                              surfaces_.normals(),
+                                              surfaces_.indices(),
+                                              barycentrics_.address(),
+                                              1,
+                                              0};
+        stream.upload(std::span(&geometry, 1), geometry_);
+        return {};
+    }
+    uint64_t geometry() const override { return geometry_.address(); }
+    vk::Draw draw(uint32_t first_face, uint32_t face_count) const override {
+        return {3 * first_face, 3 * face_count};
+    }
+
+private:
+    const mesh::gpu::DeviceSurfaces& surfaces_;
+    vk::Buffer geometry_, barycentrics_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
+                                                        const mesh::gpu::DeviceSurfaces& surfaces) {
+    constexpr std::array<vec2, 3> kCorners{{{0, 0}, {1, 0}, {0, 1}}};
+    AG_TRY(vk::Buffer geometry,
+           stream.make_buffer(sizeof(shared::RasterGeometry), "triangles to draw"));
+    AG_TRY(vk::Buffer barycentrics,
+           vk::make_buffer_of(stream, std::span<const vec2>(kCorners), "corners"));
+    return std::make_unique<PlainSource>(surfaces, std::move(geometry), std::move(barycentrics));
+}
+
+}  // namespace aglow::render::gpu

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/render/frames.h"
+
+namespace aglow {
+
+struct RasterOptions {
+    int samples = 4;  ///< of a pixel for edges, as many as the GPU takes: 1, 2, 4, 8, ...
+};
+
+/// Draws on the GPU by rasterization: the look of engine `rays` without reflections, luminance =
+/// emitted + base colour / pi * E, at one point of each pixel; edges, and the outlines of alpha
+/// masks, at `samples` points. footage.options are of engine `rays` and not looked at.
+///
+/// With baked light, E is looked up in the lightmap, also in scenes that move: shadows and lamps in
+/// it stay where they were in the rest pose. Without, E is direct light that nothing is in the way
+/// of: that of punctual lights exactly; that of the sky as if there were only the sky, to the
+/// second degree of spherical harmonics; that of emissive triangles by their form factors, of more
+/// than 32 that of a choice by power that stands for all. Interiors are lit through their walls: to
+/// see shadows, bake or take engine `rays`.
+///
+/// Backs of single-sided materials are not drawn. Blended triangles are drawn from the farthest to
+/// the nearest middle.
+///
+/// Errors  bad_argument (samples < 1), unsupported (the GPU cannot draw), out_of_memory,
+///         device_lost.
+/// Repeat  same bits every run on one device.
+Result<std::unique_ptr<FrameRenderer>> make_raster_frame_renderer(
+    const Gpu& gpu, const Footage& footage, const RasterOptions& options = {});
+
+}  // namespace aglow
