@@ -4,8 +4,21 @@
 
 namespace aglow {
 
+/// How the coarse, posed triangles are refined in every frame.
+struct Refinement {
+    enum class Kind : uint8_t {
+        none,
+        pn,      ///< curved PN triangles
+        tagged,  ///< the same, shaped by the file's _SHARPNESS, _TENSION and _BIAS
+    };
+    Kind kind = Kind::none;
+    int level = 0;  ///< 2^level segments to an edge, at most kMostRefinement
+};
+inline constexpr int kMostRefinement = 7;
+
 struct RasterOptions {
     int samples = 4;  ///< of a pixel for edges, as many as the GPU takes: 1, 2, 4, 8, ...
+    Refinement refinement = {};
 };
 
 /// Draws on the GPU by rasterization: the look of engine `rays` without reflections, luminance =
@@ -22,7 +35,11 @@ struct RasterOptions {
 /// Backs of single-sided materials are not drawn. Blended triangles are drawn from the farthest to
 /// the nearest middle.
 ///
-/// Errors  bad_argument (samples < 1), unsupported (the GPU cannot draw), out_of_memory,
+/// Refined meshes are welded first, each for itself: triangles that meet in position meet without
+/// gaps where their normals agree, and along creases of the file's normals where those differ too.
+///
+/// Errors  bad_argument (samples < 1, level out of range), unsupported (the GPU cannot draw),
+/// out_of_memory,
 ///         device_lost.
 /// Repeat  same bits every run on one device.
 Result<std::unique_ptr<FrameRenderer>> make_raster_frame_renderer(

@@ -52,6 +52,7 @@ struct Options {
     std::optional<int> reflections;
     std::optional<Shading> shading;
     std::optional<Accel> accel;
+    std::optional<Refinement> refine;
     std::optional<FrameRange> frames;
     std::optional<double> fps;
     SceneOptions scene;
@@ -64,6 +65,18 @@ Result<Size> parse_size(const std::string& text) {
     AG_TRY(const int64_t width, parse_whole(text.substr(0, cross), 1, kLongestSide));
     AG_TRY(const int64_t height, parse_whole(text.substr(cross + 1), 1, kLongestSide));
     return Size{static_cast<int>(width), static_cast<int>(height)};
+}
+
+Result<Refinement> parse_refinement(const std::string& text) {
+    if (text == "none") return Refinement{};
+    const size_t colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    if (colon == std::string::npos || (kind != "pn" && kind != "st"))
+        return fail(Errc::bad_argument,
+                    fmt::format("\"{}\" is no refinement; there is none, pn:N and st:N", text));
+    AG_TRY(const int64_t level, parse_whole(text.substr(colon + 1), 0, kMostRefinement));
+    return Refinement{kind == "pn" ? Refinement::Kind::pn : Refinement::Kind::tagged,
+                      static_cast<int>(level)};
 }
 
 Table table(Options& o) {
@@ -101,6 +114,9 @@ Table table(Options& o) {
                                   {"grid2", Accel::grid2},
                                   {"bvh", Accel::bvh}}),
          "NAME", "how a GPU finds hits: auto (default), grid, grid2 (two-level) or bvh"},
+        {"--refine", parsed(&o.refine, parse_refinement), "none|pn:N|st:N",
+         "curved triangles with --engine raster, 2^N segments to an edge: pn, or st with the "
+         "file's _SHARPNESS, _TENSION and _BIAS (default none)"},
         {"--bounces", parsed(&o.bounces, parse_bounces), "N|auto",
          "diffuse reflections with --engine path (default auto: all)"},
         {"--frames", parsed(&o.frames, parse_frames), "A:B",
@@ -120,6 +136,8 @@ Status check_engine(const Options& options) {
         return fail(Errc::bad_argument,
                     "--engine rays shows light that is baked; give --bounces to `aglow bake`, or "
                     "take --engine path");
+    if (options.refine && options.engine != Engine::raster)
+        return fail(Errc::bad_argument, "--refine belongs to --engine raster; give both");
     if (options.engine == Engine::raster && options.bounces)
         return fail(Errc::bad_argument,
                     "--engine raster shows light that is baked; give --bounces to `aglow bake`, or "
@@ -196,7 +214,8 @@ Status open_source(const Options& options, Scene& scene, Console& console, Sourc
             "bake`",
             options.input.string()));
     if (options.engine == Engine::raster) {
-        const RasterOptions raster{.samples = options.samples.value_or(kRasterSamples)};
+        const RasterOptions raster{.samples = options.samples.value_or(kRasterSamples),
+                                   .refinement = options.refine.value_or(Refinement{})};
         AG_TRY(source.renderer,
                raster_renderer({scene, source.lit ? &*source.lit : nullptr}, raster, console));
         return {};

@@ -194,6 +194,10 @@ Status RasterRenderer::make_pipelines() {
 Status RasterRenderer::prepare(const RasterOptions& options) {
     if (options.samples < 1)
         return fail(Errc::bad_argument, fmt::format("{} samples of a pixel", options.samples));
+    const Refinement& refinement = options.refinement;
+    if (refinement.level < 0 || refinement.level > kMostRefinement)
+        return fail(Errc::bad_argument, fmt::format("refinement level {} is not in 0..{}",
+                                                    refinement.level, kMostRefinement));
     AG_CHECK(gpu_->check_drawing());
     uint32_t samples = 1;
     while (samples < static_cast<uint32_t>(std::min(options.samples, 64))) samples *= 2;
@@ -202,7 +206,11 @@ Status RasterRenderer::prepare(const RasterOptions& options) {
     AG_CHECK(make_tables(rest));
     AG_TRY(surfaces_, mesh::gpu::DeviceSurfaces::create(stream_, scene_, rest));
     parts_.emplace(scene_, rest);
-    AG_TRY(source_, make_plain_source(stream_, *surfaces_));
+    if (refinement.kind == Refinement::Kind::none) {
+        AG_TRY(source_, make_plain_source(stream_, *surfaces_));
+    } else {
+        AG_TRY(source_, make_pattern_source(stream_, *surfaces_, scene_, rest, refinement));
+    }
     AG_CHECK(make_pipelines());
     return stream_.finish();
 }
@@ -223,6 +231,7 @@ Status RasterRenderer::move(double time) {
     AG_CHECK(surfaces_->pose(stream_, time));
     stream_.barrier();
     AG_CHECK(source_->update(stream_));
+    stream_.barrier();
     return {};
 }
 

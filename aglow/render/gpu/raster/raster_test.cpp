@@ -312,6 +312,92 @@ TEST_CASE("masks are cut as finely as edges") {
     CHECK(drawn.at(2, 2).x == doctest::Approx(kUnlitWhite / 2));  // the mask ends in its middle
 }
 
+namespace {
+
+/// An octahedron with the normals of a sphere, welded or with its corners split as files have them.
+Scene octahedron(bool mirrored) {
+    Quads quads;
+    Scene& scene = quads.scene;
+    Primitive p;
+    p.material = 0;
+    scene.materials.push_back(unlit({1, 1, 1}));
+    const std::array<vec3, 6> tips{
+        {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+    for (uint32_t i = 0; i < 8; ++i) {
+        const size_t a = i % 4, b = (i + 1) % 4;
+        const std::array<size_t, 3> corners{a, i < 4 ? b : size_t{5}, i < 4 ? size_t{4} : b};
+        const auto first = static_cast<uint32_t>(p.positions.size());
+        for (const size_t corner : corners) {
+            p.positions.push_back(tips[corner]);
+            p.normals.push_back(tips[corner]);
+        }
+        p.triangles.push_back({first, first + 1, first + 2});
+    }
+    Node node;
+    node.mesh = 0;
+    if (mirrored) node.scale = {-1, 1, 1};
+    scene.meshes.push_back({"", {p}, {}});
+    scene.nodes.push_back(node);
+    return scene;
+}
+
+double covered(const Image& image) {
+    double sum = 0;
+    for (const vec3 pixel : image.pixels) sum += static_cast<double>(pixel.x / kUnlitWhite);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+}  // namespace
+
+TEST_CASE("a refined octahedron has the outline of its curved triangles, mirrored too") {
+    vk::TestDevice device;
+    if (!device) return;
+    for (const bool mirrored : {false, true}) {
+        CAPTURE(mirrored);
+        const Scene scene = octahedron(mirrored);
+        const View view = from_above(4, 1.25f, 64);
+        const double square = 2 / 6.25;
+        // The area about the origin of four cubics with the control points (1, 0), (1, 1/3),
+        // (1/3, 1), (0, 1) is 41 / 15.
+        const double outline = 41.0 / 15 / 6.25;
+        CHECK(covered(rastered(device.gpu(), {scene}, view)) ==
+              doctest::Approx(square).epsilon(0.01));
+        const Refinement curved{Refinement::Kind::pn, 3};
+        const Image round =
+            rastered(device.gpu(), {scene}, view, -1, {.samples = 4, .refinement = curved});
+        CHECK(covered(round) == doctest::Approx(outline).epsilon(0.01));
+        // No gap anywhere within.
+        int gaps = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const vec2 at = position_of(x, y, 1.25f, 64);
+                gaps += at.x * at.x + at.y * at.y < 0.7f && round.at(x, y).x != kUnlitWhite;
+            }
+        CHECK(gaps == 0);
+    }
+}
+
+TEST_CASE("flat surfaces stay as they are when they are refined") {
+    vk::TestDevice device;
+    if (!device) return;
+    LitRoom room;
+    const Footage footage{room.quads.scene, &room.lit};
+    const View view = room_view(96, 72);
+    const Image flat = rastered(device.gpu(), footage, view);
+    for (const auto kind : {Refinement::Kind::pn, Refinement::Kind::tagged}) {
+        const Image refined =
+            rastered(device.gpu(), footage, view, -1, {.samples = 4, .refinement = {kind, 2}});
+        const Agreement same = agreement(refined, flat);
+        CHECK(same.relative_rmse < 0.01);
+        // Pixels that an edge of the pattern crosses are shaded on both sides of it.
+        CHECK(same.largest_inside < 0.01);
+    }
+    CHECK(make_raster_frame_renderer(device.gpu(), footage,
+                                     {.refinement = {Refinement::Kind::pn, kMostRefinement + 1}})
+              .error()
+              .code == Errc::bad_argument);
+}
+
 TEST_CASE("a picture is the same every time, and of any size in turn") {
     vk::TestDevice device;
     if (!device) return;

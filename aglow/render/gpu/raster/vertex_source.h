@@ -2,6 +2,7 @@
 #pragma once
 #include "aglow/core/result.h"
 #include "aglow/mesh/gpu/device_surfaces.h"
+#include "aglow/render/raster.h"
 #include "aglow/vk/stream.h"
 
 #include <cstdint>
@@ -42,5 +43,13 @@ public:
 /// Errors  out_of_memory.
 Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
                                                         const mesh::gpu::DeviceSurfaces& surfaces);
+
+/// Curved patches over the triangles, meshes welded, a pattern of 2^level segments drawn for each.
+/// `rest` is what `surfaces` was made from; `surfaces` must outlive it.
+/// Errors  out_of_memory, device_lost.
+Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
+                                                          const mesh::gpu::DeviceSurfaces& surfaces,
+                                                          const Scene& scene, const Surfaces& rest,
+                                                          const Refinement& refinement);
 
 }  // namespace aglow::render::gpu

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/result.h"
+#include "aglow/mesh/control_mesh.h"
+#include "aglow/mesh/surfaces.h"
+#include "aglow/shared/tagged_triangle.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace aglow::render::gpu {
+
+/// All meshes of a scene where they are placed, as one coarse surface to refine: meshes are welded
+/// each for itself, and their placements do not touch.
+struct ControlScene {
+    Topology topology;
+    std::vector<uint32_t> vertex_source;  ///< [vertex] of Surfaces
+    std::vector<uint32_t> corner_source;  ///< [half-edge] vertex of Surfaces
+    std::vector<uint32_t> patch_of;       ///< [triangle of Surfaces] its face here; kNone: none
+    std::vector<shared::ShapeTags> tags;  ///< [vertex]; empty: no primitive has any
+};
+
+/// Faces have the corners of their triangle in `rest`, in its order: mirrored placements are turned
+/// about.
+/// Errors  out_of_memory.
+Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest);
+
+}  // namespace aglow::render::gpu
