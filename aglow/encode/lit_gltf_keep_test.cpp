@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the input held must be in the output, bit for bit.
-#include "aglow/encode/testing/attributes.h"
+#include "aglow/encode/gltf/testing/attributes.h"
 #include "aglow/encode/testing/round_trip.h"
 #include "aglow/scene/gltf_source.h"
 #include "aglow/scene/image_file.h"
 
 using namespace aglow;
 using namespace aglow::encode::testing;
-using aglow::encode::Json;
+using aglow::gltf::edit::Json;
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every real scene makes the round trip, in both forms and both containers.
-#include "aglow/encode/testing/attributes.h"
+#include "aglow/encode/gltf/testing/attributes.h"
 #include "aglow/encode/testing/round_trip.h"
 
 using namespace aglow;

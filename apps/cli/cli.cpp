@@ -17,8 +17,9 @@ namespace aglow::cli {
 namespace {
 
 std::vector<Command> commands() {
-    return {bake_command(),     render_command(), measure_command(), compare_command(),
-            validate_command(), bench_command(),  scene_command(),   info_command()};
+    return {bake_command(),    render_command(),  refine_command(),
+            measure_command(), compare_command(), validate_command(),
+            bench_command(),   scene_command(),   info_command()};
 }
 
 int exit_code(Errc code) {

@@ -41,6 +41,7 @@ Command bench_command();
 Command compare_command();
 Command info_command();
 Command measure_command();
+Command refine_command();
 Command render_command();
 Command scene_command();
 Command validate_command();

@@ -3,8 +3,8 @@
 """Fails when a file includes a folder it may not know about. Run by ctest as `layers`.
 
 The table is that of docs/architecture.md. Headers directly in a stage, and those of the solvers in
-transport/gather and transport/path, are public; cpu/ and gpu/ folders are open to the same folders
-of later stages; every other subfolder is private to its stage.
+transport/gather and transport/path, are public; cpu/, gpu/ and gltf/ folders are open to the same
+folders of later stages; every other subfolder is private to its stage.
 """
 import pathlib
 import re
@@ -28,7 +28,7 @@ MAY_INCLUDE = {
     "bake": BASE | {"scene", "mesh", "refine", "accel", "transport", "encode"},
 }
 PUBLIC_SUBFOLDERS = {("transport", "gather"), ("transport", "path")}
-BACKENDS = {"cpu", "gpu"}
+SHARED_FOLDERS = {"cpu", "gpu", "gltf"}
 # What never appears in a public header: whoever includes it would need the library's headers.
 HIDDEN = re.compile(
     r'^\s*#\s*include\s+["<](embree|tbb|oneapi|tiny_gltf|Eigen|nlohmann|fmt|vulkan|OpenEXR|Imf)',
@@ -41,8 +41,8 @@ def is_public(stage, folders):
     return not folders or (len(folders) == 1 and (stage, folders[0]) in PUBLIC_SUBFOLDERS)
 
 
-def backend(folders):
-    return next((folder for folder in folders if folder in BACKENDS), None)
+def shared_folder(folders):
+    return next((folder for folder in folders if folder in SHARED_FOLDERS), None)
 
 
 def allowed(parts, stage, header):
@@ -62,7 +62,8 @@ def allowed(parts, stage, header):
     if stage not in MAY_INCLUDE[mine]:
         return False
     return is_public(stage, folders) or (
-        backend(folders) is not None and backend(folders) == backend(my_folders))
+        shared_folder(folders) is not None and
+        shared_folder(folders) == shared_folder(my_folders))
 
 
 def violations(root):
@@ -95,6 +96,7 @@ PLANTED = {
 FINE = {
     "aglow/transport/gather/cpu/a.cpp": '#include "aglow/accel/cpu/embree_scene.h"\n',
     "aglow/scene/b.cpp": '#include "aglow/scene/gltf/json.h"\n',
+    "aglow/encode/gltf/a.cpp": '#include "aglow/scene/gltf/edit/document.h"\n',
     "apps/cli/b.cpp": '#include "aglow/transport/path/path.h"\n',
     "aglow/accel/cpu/a.h": "#include <embree3/rtcore.h>\n",
     "aglow/accel/gpu/a.cpp": '#include "aglow/vk/stream.h"\n',

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/elements.h"
 #include "aglow/encode/gltf/forms.h"
+#include "aglow/scene/gltf/edit/elements.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/encode/gltf/lit_meshes.h"
 
-#include "aglow/encode/gltf/decompress.h"
-#include "aglow/encode/gltf/elements.h"
 #include "aglow/encode/gltf/split.h"
+#include "aglow/scene/gltf/edit/decompress.h"
+#include "aglow/scene/gltf/edit/elements.h"
 
 #include <fmt/format.h>
 

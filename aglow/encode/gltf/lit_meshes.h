@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/document.h"
 #include "aglow/mesh/unwrap.h"
+#include "aglow/scene/gltf/edit/document.h"
 
 #include <map>
 #include <set>
 #include <utility>
 
 namespace aglow::encode {
+
+using namespace gltf::edit;
 
 inline constexpr const char* kMoz = "MOZ_lightmap";
 inline constexpr const char* kMx = "MX_lightmap";

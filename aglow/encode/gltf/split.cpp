@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/encode/gltf/split.h"
 
-#include "aglow/encode/gltf/decompress.h"
+#include "aglow/scene/gltf/edit/decompress.h"
 
 #include <fmt/format.h>
 

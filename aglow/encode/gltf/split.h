@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/document.h"
+#include "aglow/scene/gltf/edit/document.h"
 
 namespace aglow::encode {
+
+using namespace gltf::edit;
 
 /// Rewrites a primitive as unwrap() left it: its vertices split as source_vertex says, its
 /// triangles as a list, nothing compressed. Where nothing was split the primitive stays as it is.

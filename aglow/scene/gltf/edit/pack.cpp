@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/pack.h"
+#include "aglow/scene/gltf/edit/pack.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 /// Runs start at multiples of this in the source and in the result, so that data stays aligned.
@@ -134,7 +134,7 @@ Result<std::vector<uint8_t>> to_glb_bytes(const Json& json, std::span<const uint
     const size_t total = 28 + (text.size() + 3) / 4 * 4 + (binary.size() + 3) / 4 * 4;
     if (total > std::numeric_limits<uint32_t>::max())
         return fail(Errc::bad_argument,
-                    "the lit scene exceeds the 4 GiB that a .glb can hold; write .gltf");
+                    "the scene exceeds the 4 GiB that a .glb can hold; write .gltf");
     std::vector<uint8_t> glb;
     glb.reserve(total);
     append_word(glb, 0x46546C67u);  // "glTF"
@@ -185,4 +185,4 @@ std::filesystem::path path_of_uri(std::string_view uri) {
     return path;
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

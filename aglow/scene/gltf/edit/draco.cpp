@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/decompress.h"
+#include "aglow/scene/gltf/edit/decompress.h"
 
 #include <draco/compression/decode.h>
 #include <fmt/format.h>
 
 #include <cstring>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 Result<std::span<const uint8_t>> compressed_bytes(const Document& document, const Json& extension) {
@@ -91,4 +91,4 @@ Result<std::map<std::string, Elements>> decode_draco(const Document& document,
     return attributes;
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/document.h"
+#include "aglow/scene/gltf/edit/document.h"
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// An image file that a .gltf names and that has to be put beside it.
 struct ImageCopy {
@@ -15,4 +15,4 @@ struct ImageCopy {
 /// name of their own beside the scene.
 std::vector<ImageCopy> relocate_images(Document& document, const std::filesystem::path& scene);
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// Several files that appear together or not at all. Files are written under temporary names beside
 /// their targets; commit() renames them, the first one added last, so that the scene never names a
@@ -39,4 +39,4 @@ private:
     bool committed_ = false;
 };
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/external_images.h"
+#include "aglow/scene/gltf/edit/external_images.h"
 
 #include "aglow/core/file.h"
-#include "aglow/encode/gltf/pack.h"
+#include "aglow/scene/gltf/edit/pack.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ std::vector<ImageCopy> relocate_images(Document& document, const fs::path& scene
     return copies;
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

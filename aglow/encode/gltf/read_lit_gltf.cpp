@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/document.h"
-#include "aglow/encode/gltf/elements.h"
 #include "aglow/encode/gltf/lit_meshes.h"
-#include "aglow/encode/gltf/pack.h"
 #include "aglow/encode/lit_gltf.h"
+#include "aglow/scene/gltf/edit/document.h"
+#include "aglow/scene/gltf/edit/elements.h"
+#include "aglow/scene/gltf/edit/pack.h"
 #include "aglow/scene/image_file.h"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/elements.h"
+#include "aglow/scene/gltf/edit/elements.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 size_t component_size(int component_type) {
@@ -215,4 +215,4 @@ int add_indices(Document& document, std::span<const uint32_t> indices, size_t ve
                                        {"type", "SCALAR"}});
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/decompress.h"
+#include "aglow/scene/gltf/edit/decompress.h"
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 constexpr const char* kExtension = "EXT_meshopt_compression";
@@ -15,4 +15,4 @@ void drop_meshopt(Document& document) {
     drop_extension_if_unused(document, kExtension);
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

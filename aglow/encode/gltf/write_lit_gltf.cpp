@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/core/assert.h"
 #include "aglow/core/file.h"
-#include "aglow/encode/gltf/external_images.h"
 #include "aglow/encode/gltf/forms.h"
 #include "aglow/encode/gltf/light_coding.h"
-#include "aglow/encode/gltf/output_set.h"
-#include "aglow/encode/gltf/pack.h"
 #include "aglow/encode/gltf/unlit_picture.h"
 #include "aglow/encode/lit_gltf.h"
+#include "aglow/scene/gltf/edit/pack.h"
+#include "aglow/scene/gltf/edit/scene_files.h"
 #include "aglow/scene/image_file.h"
 
 #include <fmt/format.h>
@@ -23,22 +22,17 @@ using encode::Json;
 
 /// The files that stand beside each other under one stem.
 struct Names {
-    fs::path scene, bin, exr, png, manifest;
-    bool binary = true;  ///< .glb
+    encode::SceneFiles scene;
+    fs::path exr, png, manifest;
 };
 
 Result<Names> names_of(const fs::path& path, LitForm form) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending != ".glb" && ending != ".gltf")
-        return fail(Errc::bad_argument, "a lit scene is written as .glb or .gltf", path.string());
+    AG_TRY(auto scene, encode::scene_files(path));
     const auto beside = [&](const char* tail) {
         return path.parent_path() / (path.stem().string() + tail);
     };
     const char* png = form == LitForm::unlit ? ".unlit.png" : ".lightmap.png";
-    return Names{path,        beside(".bin"),           beside(".exr"),
-                 beside(png), beside(".manifest.json"), ending == ".glb"};
+    return Names{std::move(scene), beside(".exr"), beside(png), beside(".manifest.json")};
 }
 
 std::string text_of(const fs::path& path) { return path.filename().string(); }
@@ -48,9 +42,10 @@ Result<Json> manifest(const Names& names, const Atlas& atlas, const Texels& texe
     const Json settings = Json::parse(options.json_settings, nullptr, false);
     if (settings.is_discarded())
         return fail(Errc::bad_argument, "the settings for the manifest are no JSON");
-    Json files = {
-        {"scene", text_of(names.scene)}, {"exr", text_of(names.exr)}, {"png", text_of(names.png)}};
-    if (!names.binary) files["buffer"] = text_of(names.bin);
+    Json files = {{"scene", text_of(names.scene.scene)},
+                  {"exr", text_of(names.exr)},
+                  {"png", text_of(names.png)}};
+    if (!names.scene.binary) files["buffer"] = text_of(names.scene.buffer);
     const bool unlit = options.form == LitForm::unlit;
     Json json = {{"generator", "Aglow"},
                  {"quantity", "irradiance"},
@@ -77,49 +72,6 @@ Result<Json> manifest(const Names& names, const Atlas& atlas, const Texels& texe
     return json;
 }
 
-std::span<const uint8_t> bytes_of(const std::string& text) {
-    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
-}
-
-/// The scene's own files: first the scene, then what it names.
-Status add_scene(encode::LitScene& lit, const Names& names, encode::OutputSet& outputs) {
-    if (names.binary) {
-        encode::embed_images(lit.document);
-        const auto binary = encode::merge_buffers(lit.document);
-        AG_TRY(const auto glb, encode::to_glb_bytes(lit.json(), binary));
-        return outputs.add(names.scene, glb);
-    }
-    const auto copies = encode::relocate_images(lit.document, names.scene);
-    const auto binary = encode::merge_buffers(lit.document);
-    if (!binary.empty()) lit.json()["buffers"][0]["uri"] = encode::to_uri(text_of(names.bin));
-    AG_CHECK(outputs.add(names.scene, bytes_of(encode::to_text(lit.json(), 2) + "\n")));
-    if (!binary.empty()) AG_CHECK(outputs.add(names.bin, binary));
-    for (const auto& copy : copies) AG_CHECK(outputs.add(copy.target, copy.bytes));
-    return {};
-}
-
-/// A neighbour of the input must not be lost to an output that happens to share its name.
-Status protect_input(const encode::LitScene& lit, const Names& names) {
-    const auto& source = lit.scene.source;
-    if (!source || source->folder.empty() || text_of(names.scene) == lit.scene.name) return {};
-    for (const char* key : {"buffers", "images"}) {
-        for (const Json& element : encode::list_of(lit.document.json, key)) {
-            const auto uri = element.find("uri");
-            if (uri == element.end()) continue;
-            const fs::path named = encode::path_of_uri(uri->get<std::string>());
-            if (named.empty()) continue;
-            for (const fs::path& output : {names.bin, names.exr, names.png, names.manifest}) {
-                std::error_code ignored;
-                if (fs::equivalent(source->folder / named, output, ignored))
-                    return fail(Errc::bad_argument,
-                                "it belongs to the input; choose another output name",
-                                output.string());
-            }
-        }
-    }
-    return {};
-}
-
 struct Light {
     encode::CodedLight coded;  ///< of the lightmap, whatever the form
     std::vector<uint8_t> png;  ///< what the scene's texture shows
@@ -143,12 +95,13 @@ Result<LitFiles> write(const Scene& scene, const Surfaces& surfaces, const Atlas
                        const LitOptions& options) {
     AG_TRY(const Names names, names_of(path, options.form));
     AG_TRY(auto lit, encode::open_lit_scene(scene, atlas));
-    AG_CHECK(protect_input(lit, names));
+    AG_CHECK(encode::protect_input(scene, lit.document, names.scene,
+                                   {names.exr, names.png, names.manifest}));
     AG_TRY(const Light light, code(scene, surfaces, texels, lightmap, options));
     AG_TRY(const Json about, manifest(names, atlas, texels, light.coded, options));
 
     encode::add_light_texture(lit, light.png,
-                              names.binary ? "" : encode::to_uri(text_of(names.png)));
+                              names.scene.binary ? "" : encode::to_uri(text_of(names.png)));
     if (options.form == LitForm::unlit) {
         encode::apply_unlit_form(lit);
     } else {
@@ -156,11 +109,11 @@ Result<LitFiles> write(const Scene& scene, const Surfaces& surfaces, const Atlas
                                     {light.coded.intensity, text_of(names.exr), atlas.texel_size});
     }
     encode::OutputSet outputs;
-    AG_CHECK(add_scene(lit, names, outputs));
+    AG_CHECK(encode::add_scene(lit.document, names.scene, outputs));
     AG_CHECK(outputs.add(names.exr,
                          [&](const fs::path& to) { return write_image(lightmap.irradiance, to); }));
     AG_CHECK(outputs.add(names.png, light.png));
-    AG_CHECK(outputs.add(names.manifest, bytes_of(encode::to_text(about, 2) + "\n")));
+    AG_CHECK(outputs.add(names.manifest, encode::bytes_of(encode::to_text(about, 2) + "\n")));
     AG_TRY(auto written, outputs.commit());
     return LitFiles{std::move(written), light.coded.clipped_share, light.coded.intensity};
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the attributes of two glTF files corner by corner.
 #pragma once
-#include "aglow/encode/gltf/decompress.h"
 #include "aglow/encode/testing/round_trip.h"
+#include "aglow/scene/gltf/edit/decompress.h"
 
 #include <algorithm>
 
 namespace aglow::encode::testing {
+
+using namespace gltf::edit;
 
 inline uint32_t source_of(const Primitive& primitive, uint32_t vertex) {
     return primitive.source_vertex.empty() ? vertex : primitive.source_vertex[vertex];

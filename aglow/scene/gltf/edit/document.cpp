@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/document.h"
+#include "aglow/scene/gltf/edit/document.h"
 
 #include "aglow/scene/write.h"
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cstring>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 namespace {
 
 // Writing JSON and copying it recurse once per level; real files stay below 20.
@@ -267,6 +267,38 @@ void release_view(Document& document, int view) {
         document.free_views.push_back(view);
 }
 
+namespace {
+
+/// Removes free slots from the end of a list, and gives the others `empty`.
+void sweep(Json& json, const char* key, std::vector<int>& free, std::vector<int>& uses,
+           const Json& empty) {
+    if (free.empty()) return;
+    Json& list = json.at(key);
+    std::ranges::sort(free);
+    while (!free.empty() && static_cast<size_t>(free.back()) + 1 == list.size()) {
+        list.erase(list.size() - 1);
+        uses.pop_back();
+        free.pop_back();
+    }
+    for (const int slot : free) list[static_cast<size_t>(slot)] = empty;
+    if (list.empty()) json.erase(key);
+}
+
+}  // namespace
+
+void sweep_free_slots(Document& document) {
+    sweep(document.json, "accessors", document.free_accessors, document.accessor_uses,
+          {{"componentType", kFloat}, {"count", 1}, {"type", "SCALAR"}});
+    if (document.free_views.empty()) return;
+    // A view must show something: one word, which all of them share.
+    const size_t word = document.added.size();
+    document.added.resize((word + 3) / 4 * 4 + 4);
+    sweep(document.json, "bufferViews", document.free_views, document.view_uses,
+          {{"buffer", document.source->buffers.size()},
+           {"byteOffset", (word + 3) / 4 * 4},
+           {"byteLength", 4}});
+}
+
 void use_extension(Document& document, std::string_view name) {
     Json& used = array_of(document.json, "extensionsUsed");
     if (std::ranges::find(used, name) == used.end()) used.push_back(name);
@@ -293,4 +325,4 @@ void erase_extension(Json& element, std::string_view name) {
     if (extensions->empty()) element.erase("extensions");
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

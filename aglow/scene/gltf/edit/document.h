@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// Keeps the order of keys, so that an edited document reads like the one it came from.
 using Json = nlohmann::ordered_json;
@@ -28,7 +28,7 @@ inline constexpr int kIndexTarget = 34963;
 /// goes into one more buffer, `added`, whose index is the number of source buffers.
 ///
 /// Functions that read or edit `json` throw nlohmann::json::exception where its structure is not
-/// glTF's; write_lit_gltf() turns that into an error.
+/// glTF's; the public functions that use them turn that into an error.
 struct Document {
     Json json;
     std::shared_ptr<const GltfSource> source;
@@ -69,6 +69,10 @@ std::vector<int> views_of(const Json& accessor);
 void release_accessor(Document& document, int accessor);
 void release_view(Document& document, int view);
 
+/// Empties slots that were left free and not taken again: what they hold is no longer theirs. Those
+/// at the end of their lists go.
+void sweep_free_slots(Document& document);
+
 /// Keeps extensionsUsed (and extensionsRequired) true.
 void use_extension(Document& document, std::string_view name);
 void drop_extension_if_unused(Document& document, std::string_view name);
@@ -77,4 +81,4 @@ void drop_extension_if_unused(Document& document, std::string_view name);
 const Json* find_extension(const Json& element, std::string_view name);
 void erase_extension(Json& element, std::string_view name);
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/elements.h"
+#include "aglow/scene/gltf/edit/elements.h"
 
 #include <map>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// Makes every bufferView compressed by EXT_meshopt_compression a plain one. Loading has put the
 /// decoded bytes where the views point, so that only the extension has to go.
@@ -16,4 +16,4 @@ void drop_meshopt(Document& document);
 Result<std::map<std::string, Elements>> decode_draco(const Document& document,
                                                      const Json& primitive);
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

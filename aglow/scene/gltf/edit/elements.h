@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/document.h"
+#include "aglow/scene/gltf/edit/document.h"
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// The elements of one accessor as they lie in the file, tightly packed: quantised and normalised
 /// numbers keep their bits.
@@ -32,4 +32,4 @@ int add_floats(Document& document, std::span<const float> values, const char* ty
 /// Adds the indices of a triangle list.
 int add_indices(Document& document, std::span<const uint32_t> indices, size_t vertex_count);
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/encode/gltf/output_set.h"
+#include "aglow/scene/gltf/edit/output_set.h"
 
 #include "aglow/core/file.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 namespace fs = std::filesystem;
 
@@ -64,4 +64,4 @@ Result<std::vector<fs::path>> OutputSet::commit() {
     return targets;
 }
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/encode/gltf/document.h"
+#include "aglow/scene/gltf/edit/document.h"
 
-namespace aglow::encode {
+namespace aglow::gltf::edit {
 
 /// Media type by the first bytes; empty for what is no known image.
 std::string image_type(std::span<const uint8_t> bytes);
@@ -26,4 +26,4 @@ std::string to_uri(std::string_view name);
 /// leaves its folder.
 std::filesystem::path path_of_uri(std::string_view uri);
 
-}  // namespace aglow::encode
+}  // namespace aglow::gltf::edit

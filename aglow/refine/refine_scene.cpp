@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/refine/refine_scene.h"
+
+#include "aglow/refine/pattern.h"
+#include "aglow/refine/scene/refine_mesh.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+namespace aglow {
+namespace {
+
+bool subdivides(RefineScheme scheme) {
+    return scheme == RefineScheme::loop || scheme == RefineScheme::catmull_clark;
+}
+
+Status check_options(const RefineOptions& options) {
+    const int finest = finest_level(options.scheme);
+    if (options.level < 1 || options.level > finest)
+        return fail(Errc::bad_argument,
+                    fmt::format("level {} is outside 1 to {}", options.level, finest));
+    if (options.limit && !subdivides(options.scheme))
+        return fail(Errc::bad_argument, "only subdivision (loop, catmull-clark) has a limit");
+    if (options.control.quads && options.scheme == RefineScheme::loop)
+        return fail(Errc::bad_argument,
+                    "Loop subdivision is for triangles: leave quads out, or "
+                    "take catmull-clark");
+    return {};
+}
+
+uint64_t triangle_count(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) count += p.triangles.size();
+    return count;
+}
+
+/// Before the work, from the triangles that there are; Catmull-Clark makes three quads of one.
+Status check_size(const Scene& scene, const RefineOptions& options) {
+    const bool thirds = options.scheme == RefineScheme::catmull_clark && !options.control.quads;
+    const uint64_t coarse = triangle_count(scene);
+    const auto fine = [&](int level) { return (coarse << 2 * level) / 2 * (thirds ? 3 : 2); };
+    if (fine(options.level) <= kMostRefinedTriangles) return {};
+    int fits = options.level;
+    while (fits > 0 && fine(fits) > kMostRefinedTriangles) --fits;
+    return fail(Errc::bad_argument,
+                fmt::format("level {} would make {} triangles of {}, more than the {} that a file "
+                            "can hold; {}",
+                            options.level, fine(options.level), coarse, kMostRefinedTriangles,
+                            fits > 0 ? fmt::format("level {} fits", fits) : "no level fits"));
+}
+
+}  // namespace
+
+int finest_level(RefineScheme scheme) {
+    if (subdivides(scheme)) return kDeepestLevel;
+    int level = 0;
+    while ((2 << level) <= kMostSegments) ++level;
+    return level;
+}
+
+Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,
+                           const Monitor& monitor) try {
+    AG_CHECK(check_options(options));
+    AG_CHECK(check_size(scene, options));
+    Scene refined = scene;
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+        if (monitor.cancelled()) return fail(Errc::cancelled, "interrupted");
+        monitor("refine", static_cast<double>(m) / static_cast<double>(scene.meshes.size()));
+        std::vector<std::string> warnings;
+        auto mesh = refine::refine_mesh(scene.meshes[m], options, warnings);
+        const std::string name = fmt::format("mesh {} \"{}\"", m, scene.meshes[m].name);
+        if (!mesh)
+            return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message));
+        refined.meshes[m] = std::move(*mesh);
+        for (const std::string& warning : warnings)
+            refined.warnings.push_back(fmt::format("{}: {}", name, warning));
+    }
+    monitor("refine", 1);
+    return refined;
+} catch (const std::bad_alloc&) {
+    return fail(Errc::out_of_memory,
+                "the refined scene does not fit into memory: take a lower "
+                "level");
+}
+
+}  // namespace aglow

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "aglow/core/progress.h"
+#include "aglow/core/result.h"
+#include "aglow/mesh/control_mesh.h"
+#include "aglow/refine/displacement.h"
+#include "aglow/refine/subdivision.h"
+#include "aglow/scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace aglow {
+
+enum class RefineScheme : uint8_t {
+    loop,           ///< subdivision of triangles
+    catmull_clark,  ///< subdivision of quads and all other polygons
+    pn,             ///< curved PN triangles
+    tagged,         ///< the same, shaped by _SHARPNESS, _TENSION and _BIAS
+    phong,          ///< Phong tessellation
+};
+
+/// Height along the normals: scale * map(uv) + bias, by the first set of texture coordinates.
+struct HeightDisplacement {
+    HeightMap map;
+    float scale = 1;  ///< m for a height of 1
+    float bias = 0;   ///< m
+};
+
+struct RefineOptions {
+    RefineScheme scheme = RefineScheme::loop;
+    int level = 1;       ///< 2^level segments to an edge
+    bool limit = false;  ///< subdivision: vertices go where infinitely many levels would put them
+    Corners corners = Corners::sharp;  ///< subdivision: what boundaries do where they turn
+    ControlOptions control = {};
+    std::optional<HeightDisplacement> displacement;
+};
+
+/// The finest level that refine_scene() makes of a scheme.
+int finest_level(RefineScheme scheme);
+
+/// More triangles than this fill a .glb, which can hold 4 GiB.
+inline constexpr uint64_t kMostRefinedTriangles = uint64_t{1} << 27;
+
+/// Every mesh of a scene refined, one surface across its primitives: faces that meet in the input
+/// meet bitwise, in every pose. Nodes, materials, animations and all else stay.
+///
+/// Positions    of the scheme.
+/// Normals      of subdivision: the limit's, apart on both sides of a crease. Of patches: of the
+///              scheme, from the file's normals, which part where these differ; a file without any,
+///              or a crease angle, gets smooth ones that part at creases.
+/// Texture coordinates, colours, scalar tags  smooth inside and straight along their seams under
+///              subdivision; linear over patches.
+/// Skin         influences of a vertex are the weighted means of those it comes from; the 4 largest
+///              (8 where the mesh has more than 4 for each vertex) are kept, their sum 1.
+/// Morph targets  the shape at weight 1, refined, less the shape at rest: exact for subdivision,
+///              which is linear. Displacement follows the normals of each shape.
+/// Creases and corners  have done their work and are left out, and so are lightmap_uvs.
+///
+/// Primitives keep their numbers; those without triangles stay as they are.
+/// Errors  bad_argument   level outside 1..finest_level(), limit or quads with a scheme that has
+///                        none, more than kMostRefinedTriangles (how many)
+///         out_of_memory, cancelled
+/// Repeat  same bits for any number of threads.
+Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,
+                           const Monitor& monitor = {});
+
+}  // namespace aglow

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/scene/rewrite_gltf.h"
+
+#include "aglow/scene/gltf/edit/replace_meshes.h"
+#include "aglow/scene/gltf/edit/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+namespace aglow {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<RewrittenFiles> rewrite(const Scene& scene, const fs::path& path) {
+    AG_TRY(const auto files, gltf::edit::scene_files(path));
+    // Without a source the document is made from the scene, meshes and all.
+    AG_TRY(auto document, gltf::edit::open_document(scene));
+    AG_CHECK(gltf::edit::protect_input(scene, document, files, {}));
+    RewrittenFiles result;
+    if (scene.source) AG_CHECK(gltf::edit::replace_meshes(document, scene, result.warnings));
+    gltf::edit::OutputSet outputs;
+    AG_CHECK(gltf::edit::add_scene(document, files, outputs));
+    AG_TRY(result.outputs, outputs.commit());
+    return result;
+}
+
+}  // namespace
+
+Result<RewrittenFiles> rewrite_gltf(const Scene& scene, const fs::path& path) try {
+    return rewrite(scene, path);
+} catch (const std::bad_alloc&) {
+    return fail(Errc::out_of_memory, "no memory to write the scene", path.string());
+} catch (const nlohmann::json::exception& error) {
+    return fail(Errc::malformed, fmt::format("the source's JSON is not glTF: {}", error.what()),
+                scene.name);
+} catch (const fs::filesystem_error& error) {
+    return fail(Errc::unreadable, error.what(), path.string());
+} catch (const std::exception& error) {
+    return fail(Errc::malformed, fmt::format("the source cannot be edited: {}", error.what()),
+                scene.name);
+}
+
+}  // namespace aglow

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/refine/refine_scene.h"
+
+#include "aglow/scene/load.h"
+#include "aglow/scene/rewrite_gltf.h"
+#include "command.h"
+#include "report.h"
+#include "scene_options.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace aglow::cli {
+namespace {
+
+struct Options {
+    std::filesystem::path input, output;
+    std::optional<RefineScheme> scheme;
+    int level = 2;
+    bool limit = false;
+    std::optional<double> crease;
+    bool creases_at_normals = false;
+    bool quads = false;
+    bool round_corners = false;
+    std::filesystem::path displace;
+    std::optional<double> displace_scale, displace_bias;
+};
+
+Table table(Options& o) {
+    return {
+        {"IN", file(&o.input), "", "scene: .gltf, .glb or .obj", Need::required},
+        {"-o,--output", file(&o.output), "OUT", "refined scene to write: .glb or .gltf",
+         Need::required},
+        {"--scheme",
+         choice<RefineScheme>(&o.scheme, {{"loop", RefineScheme::loop},
+                                          {"catmull-clark", RefineScheme::catmull_clark},
+                                          {"pn", RefineScheme::pn},
+                                          {"st", RefineScheme::tagged},
+                                          {"phong", RefineScheme::phong}}),
+         "NAME", "loop (default) or catmull-clark: subdivision; pn, st or phong: curved triangles"},
+        {"--level", whole(&o.level, 1, kDeepestLevel), "N",
+         "2^N segments to an edge, 4^N triangles to each (default 2)"},
+        {"--limit", flag(&o.limit), "", "subdivision: put vertices on the limit surface"},
+        {"--crease", number(&o.crease, 0, 180), "DEGREES",
+         "keep edges sharp whose faces meet at a larger angle"},
+        {"--creases-at-normals", flag(&o.creases_at_normals), "",
+         "keep edges sharp across which the file's normals differ"},
+        {"--quads", flag(&o.quads), "", "join pairs of triangles to quads first; not with loop"},
+        {"--round-corners", flag(&o.round_corners), "",
+         "subdivision: round the corners of open meshes too"},
+        {"--displace", file(&o.displace), "FILE",
+         "height map over TEXCOORD_0: .png (16 bit: 0..1), .exr or .hdr"},
+        {"--displace-scale", number(&o.displace_scale, -kNoBound), "METRES",
+         "how far a height of 1 moves the surface (default 1)"},
+        {"--displace-bias", number(&o.displace_bias, -kNoBound), "METRES",
+         "moves all of it, beside the map (default 0)"},
+    };
+}
+
+Status check(const Options& o) {
+    if (o.displace.empty() && (o.displace_scale || o.displace_bias))
+        return fail(Errc::bad_argument,
+                    "--displace-scale and --displace-bias go with --displace FILE");
+    return check_output(o.output, {".glb", ".gltf"}, o.input);
+}
+
+Result<RefineOptions> refine_options(const Options& o) {
+    RefineOptions options;
+    options.scheme = o.scheme.value_or(RefineScheme::loop);
+    options.level = o.level;
+    options.limit = o.limit;
+    options.corners = o.round_corners ? Corners::smooth : Corners::sharp;
+    if (o.crease) options.control.crease_angle = static_cast<float>(*o.crease) * (kPi / 180);
+    options.control.crease_at_normals = o.creases_at_normals;
+    options.control.quads = o.quads;
+    if (o.displace.empty()) return options;
+    AG_TRY(HeightMap map, read_height_map(o.displace));
+    options.displacement = {std::move(map), static_cast<float>(o.displace_scale.value_or(1)),
+                            static_cast<float>(o.displace_bias.value_or(0))};
+    return options;
+}
+
+/// Of all meshes, each once.
+Json counts(const Scene& scene) {
+    size_t triangles = 0, vertices = 0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) {
+            triangles += p.triangles.size();
+            vertices += p.positions.size();
+        }
+    return {{"triangles", triangles}, {"vertices", vertices}};
+}
+
+Result<int> run(const Options& options, Console& console) {
+    AG_CHECK(check(options));
+    const Stopwatch total;
+    AG_CHECK(console.go_on("load"));
+    AG_TRY(const RefineOptions refine, refine_options(options));
+    AG_TRY(const Scene scene, load_scene(options.input));
+    const double loaded = total.seconds();
+    auto refined = refine_scene(scene, refine, console.monitor());
+    if (!refined && refined.error().context.empty())
+        refined.error().context = options.input.string();
+    AG_TRY(const Scene result, std::move(refined));
+    const double made = total.seconds();
+    show_warnings(result, options.input, console);
+    AG_CHECK(console.go_on("write"));
+    AG_TRY(const RewrittenFiles files, rewrite_gltf(result, options.output));
+    for (const std::string& warning : files.warnings)
+        console.warn(options.input.string() + ": " + warning);
+    print_report(console, {{"scene", options.input.string()},
+                           {"level", options.level},
+                           {"coarse", counts(scene)},
+                           {"refined", counts(result)},
+                           {"seconds",
+                            {{"load", rounded_seconds(loaded)},
+                             {"refine", rounded_seconds(made - loaded)},
+                             {"write", rounded_seconds(total.seconds() - made)},
+                             {"total", rounded_seconds(total.seconds())}}},
+                           {"outputs", names(files.outputs)}});
+    return kExitDone;
+}
+
+}  // namespace
+
+Command refine_command() {
+    return command("refine", "IN -o OUT [options]", "writes a scene with finer, smooth meshes",
+                   table, run);
+}
+
+}  // namespace aglow::cli
