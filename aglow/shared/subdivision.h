@@ -6,8 +6,8 @@
 #include "aglow/shared/buffers.h"
 AG_NAMESPACE_BEGIN
 
-// Rows of a table come in multiples of this many; those that a ring lacks have the weight 0.
-AG_CONST uint kSubdivideRowStep = 4u;
+// Invocations of a group that make columns side by side.
+AG_CONST uint kSubdivideColumnLanes = 8u;
 // Rows of rings that shared memory holds at a time. A larger ring is read in several turns.
 AG_CONST uint kSubdivideRows = 32u;
 // Points of a step, and vertices without faces, that one group makes.
@@ -16,9 +16,8 @@ AG_CONST uint kSubdividePointGroup = 64u;
 // What one group works on: faces that follow each other and are of one class.
 struct SubdivideTile {
     uint weights;  // first of the class's table
-    uint rows;     // of that table
+    uint rows;     // of that table: size of the rings
     uint ring;     // first entry of the ring of the first face; the others' follow
-    uint ring_size;
     uint first_face, face_count;
 };
 AG_BUFFER_OF(SubdivideTile);
@@ -67,12 +66,12 @@ struct SubdivideStepArgs {
     uint first_group;
     uint count;
     uint from_width, from_channel;  // numbers of a point, and of these the first that is read
-    uint channels;                  // how many are read; three are written
+    uint to_width, to_channel;      // likewise what is written
+    uint channels;                  // how many are read and written, up to three
     uintPtr begin;                  // [count + 1] into both below
     uintPtr index;
     floatPtr weight;
-    floatPtr from;
-    vec3Ptr to;
+    floatPtr from, to;
 };
 
 // Vertices that stay where they are.
@@ -87,11 +86,11 @@ struct SubdivideLooseArgs {
 
 AG_NAMESPACE_END
 #ifdef __cplusplus
-static_assert(sizeof(aglow::shared::SubdivideTile) == 24);
+static_assert(sizeof(aglow::shared::SubdivideTile) == 20);
 static_assert(sizeof(aglow::shared::SubdivideFace) == 40);
 static_assert(sizeof(aglow::shared::SubdivideArgs) == 96);
 static_assert(sizeof(aglow::shared::SubdivideLimitArgs) == 96);
-static_assert(sizeof(aglow::shared::SubdivideStepArgs) == 64);
+static_assert(sizeof(aglow::shared::SubdivideStepArgs) == 72);
 static_assert(sizeof(aglow::shared::SubdivideLooseArgs) == 40);
 #endif
 #endif

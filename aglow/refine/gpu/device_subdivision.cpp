@@ -6,6 +6,7 @@
 #include "aglow/refine/gpu/subdivide_limit.comp.h"
 #include "aglow/refine/gpu/subdivide_loose.comp.h"
 #include "aglow/refine/gpu/subdivide_step.comp.h"
+#include "aglow/refine/tables/build.h"
 #include "aglow/refine/tables/state.h"
 #include "aglow/shared/subdivision.h"
 #include "aglow/vk/device.h"
@@ -27,25 +28,25 @@ using vk::Kernel;
 
 constexpr uint32_t kFacesPerLane = 4;       // as subdivide.comp has it
 constexpr uint32_t kLimitFacesPerLane = 2;  // as subdivide_limit.comp has it
-constexpr uint32_t kMostColumnLanes = 32;
+constexpr uint32_t kColumnLanes = shared::kSubdivideColumnLanes;
 constexpr uint32_t kChannels = 3;
 constexpr size_t kMostNumbers = size_t{1} << 31;  // that shaders count in a table
 
-uint32_t padded(uint32_t rows) {
-    constexpr uint32_t kStep = shared::kSubdivideRowStep;
-    return (rows + kStep - 1) / kStep * kStep;
-}
-
 /// How a group's invocations are divided.
 struct Lanes {
-    uint32_t columns = 1, faces = 1;
+    uint32_t faces = 1;    ///< sets of kColumnLanes invocations
+    uint32_t columns = 1;  ///< of an invocation
+    uint32_t group_columns() const { return kColumnLanes * columns; }
 };
 
-/// Groups are at least as large as the device's subgroups, and rows as short as the columns allow.
+/// Groups are at least as large as the device's subgroups, and their columns few more than there
+/// are.
 Lanes lanes_for(uint32_t columns, uint32_t subgroup) {
+    constexpr uint32_t kMost = 4;  // sums for so many columns fit into registers
+    const uint32_t blocks = (columns + kColumnLanes * kMost - 1) / (kColumnLanes * kMost);
     Lanes lanes;
-    lanes.columns = std::clamp(std::bit_ceil(columns), 8u, kMostColumnLanes);
-    lanes.faces = std::max(subgroup / lanes.columns, 1u);
+    lanes.columns = (columns + kColumnLanes * blocks - 1) / (kColumnLanes * blocks);
+    lanes.faces = std::max(subgroup / kColumnLanes, 1u);
     return lanes;
 }
 
@@ -53,12 +54,12 @@ Result<Kernel> make_kernel(const Gpu& gpu, const char* name, std::span<const uin
                            Lanes lanes, uint32_t variant) {
     return Kernel::create(
         gpu, name, code,
-        std::array{lanes.columns, lanes.faces, lanes.columns * lanes.faces, variant});
+        std::array{lanes.faces, kColumnLanes * lanes.faces, lanes.columns, variant});
 }
 
 /// The faces, those of a class after each other.
 std::vector<uint32_t> faces_by_class(const FaceTables& faces) {
-    std::vector<uint32_t> begin(faces.class_count() + 1, 0);
+    std::vector<uint32_t> begin(faces.rows.size() + 1, 0);
     for (const uint32_t k : faces.face_class) ++begin[k + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<uint32_t> order(faces.face_count());
@@ -73,19 +74,6 @@ SubdivideFace device_face(const FaceOutput& output) {
     face.first[shared::kSubdivideInside] = output.interior;
     face.owned = output.owned | (1u << shared::kSubdivideInside);
     return face;
-}
-
-/// Tables with rows of 0 behind each.
-std::vector<float> padded_tables(const FaceTables& faces, const Weights& weights) {
-    std::vector<float> tables;
-    const std::span<const float> all = floats(weights);
-    for (uint32_t k = 0; k < faces.class_count(); ++k) {
-        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(faces.weight_begin[k]);
-        tables.insert(tables.end(), begin,
-                      begin + static_cast<std::ptrdiff_t>(size_t{faces.rows[k]} * faces.stride));
-        tables.resize(tables.size() + size_t{padded(faces.rows[k]) - faces.rows[k]} * faces.stride);
-    }
-    return tables;
 }
 
 /// Faces in the order of their classes, cut into what groups work on.
@@ -114,20 +102,27 @@ struct Tiling {
                 while (count < tile_faces && next + count < order.size() &&
                        tables.face_class[order[next + count]] == k)
                     ++count;
-                tiles.push_back({weights, padded(rows), ring_begin, rows, next, count});
+                tiles.push_back({weights, rows, ring_begin, next, count});
                 ring_begin += count * rows;
                 next += count;
             }
-            weights += padded(rows) * tables.stride;
+            weights += rows * tables.stride;
         }
         return tiles;
     }
 };
 
-/// A level of points that are kept.
+/// A level of points as sums of those before.
 struct Step {
     uint32_t count = 0;
-    vk::Buffer begin, index, weight, points;
+    vk::Buffer begin, index, weight;
+    vk::Buffer points;  ///< where they are kept
+};
+
+/// Some numbers of every point of an array.
+struct Numbers {
+    uint64_t address = 0;
+    uint32_t width = kChannels, first = 0;  ///< numbers of a point; of these the first
 };
 
 struct Limit {
@@ -147,23 +142,26 @@ struct DeviceSubdivision::State {
 
     Kernel subdivide, subdivide_wide, make_step, keep_loose;
     uint32_t control_count = 0, vertex_count = 0, loose_count = 0, kept_count = 0;
-    uint32_t tile_count = 0;  ///< 0 at level 0
+    uint32_t tile_count = 0;  ///< 0 at levels 0 and 1
     uint32_t columns = 0, stride = 0, corners = 0, segment_bits = 0;
     Lanes lanes;
     vk::Buffer tiles, faces, ring, weights;
     vk::Buffer loose;  ///< vertices without faces
     vk::Buffer kept;   ///< those that do not move: loose, or at level 0 all
     std::vector<Step> steps;
+    std::optional<Step> only;  ///< at level 1: most points are sums of few
     std::optional<Limit> limit;
 
-    uint32_t blocks() const { return (columns + lanes.columns - 1) / lanes.columns; }
+    uint32_t blocks() const {
+        return (columns + lanes.group_columns() - 1) / lanes.group_columns();
+    }
     Status upload(vk::Stream& stream, const Subdivision::State& source);
     Status upload_limit(vk::Stream& stream, const Subdivision::State& source);
-    /// Where the points are that tables start from.
-    uint64_t record_steps(vk::Stream& stream, uint64_t control, uint32_t width, uint32_t channel,
-                          uint32_t channels) const;
-    void record_channels(vk::Stream& stream, uint64_t control, uint64_t refined, uint32_t width,
-                         uint32_t channel) const;
+    void record_step(vk::Stream& stream, const Step& step, Numbers from, Numbers to,
+                     uint32_t channels) const;
+    /// Result  where the points are that tables start from.
+    Numbers record_steps(vk::Stream& stream, Numbers control, uint32_t channels) const;
+    void record_tables(vk::Stream& stream, Numbers from, Numbers to, uint32_t channels) const;
     void keep(vk::Stream& stream, const vk::Buffer& vertices, uint32_t count, uint64_t from,
               uint64_t to, uint32_t width, bool zero = false) const;
 };
@@ -176,11 +174,20 @@ Status put(vk::Stream& stream, const std::vector<T>& values, const char* name, v
     return {};
 }
 
+/// Tables, and behind them what the last columns of the last row may read.
+Status put_tables(vk::Stream& stream, const Weights& weights, Lanes lanes, vk::Buffer& buffer) {
+    const std::span<const float> all = floats(weights);
+    const uint64_t end = lanes.group_columns() * sizeof(float);
+    AG_TRY(buffer, stream.make_buffer(all.size_bytes() + end, "subdivision tables"));
+    stream.upload(all, buffer);
+    return {};
+}
+
 Status check_sizes(const FaceTables& faces) {
-    uint64_t weights = 0;
-    for (const uint32_t rows : faces.rows) weights += uint64_t{padded(rows)} * faces.stride;
     const uint64_t words = uint64_t{faces.face_count()} * shared::kSubdivideFaceWords;
-    if (std::max({weights, words, uint64_t{faces.ring.size()}}) < kMostNumbers) return {};
+    if (std::max({uint64_t{faces.weights.size()} * kColumnBlock, words,
+                  uint64_t{faces.ring.size()}}) < kMostNumbers)
+        return {};
     return fail(Errc::unsupported,
                 "the tables of a subdivision have 2^31 numbers or more, which is too many for a "
                 "GPU: subdivide parts of the mesh, or on the CPU");
@@ -191,6 +198,10 @@ Status upload_step(vk::Stream& stream, const Stencils& stencils, Step& step) {
     AG_CHECK(put(stream, stencils.begin, "subdivision step", step.begin));
     AG_CHECK(put(stream, stencils.index, "subdivision step", step.index));
     AG_CHECK(put(stream, stencils.weight, "subdivision step", step.weight));
+    return {};
+}
+
+Status make_points(vk::Stream& stream, Step& step) {
     AG_TRY(step.points,
            stream.make_buffer(uint64_t{step.count} * sizeof(vec3), "points of a subdivision step"));
     return {};
@@ -211,21 +222,28 @@ Status DeviceSubdivision::State::upload(vk::Stream& stream, const Subdivision::S
     AG_CHECK(put(stream, tiling.ring, "subdivision rings", ring));
     AG_CHECK(put(stream, source.loose, "loose vertices", loose));
     loose_count = static_cast<uint32_t>(source.loose.size());
+    kept_count = source.options.level == 0 ? control_count : loose_count;
     std::vector<uint32_t> still = source.loose;
     if (source.options.level == 0) {
         still.resize(control_count);
         std::iota(still.begin(), still.end(), 0u);
+    } else if (source.options.level == 1) {
+        AG_CHECK(upload_step(
+            stream,
+            source.steps.empty() ? split_stencils(source.mesh, Scheme::loop) : source.steps[0],
+            only.emplace()));
     } else {
         const auto all = tiling.tiles(tables, kFacesPerLane * lanes.faces);
         tile_count = static_cast<uint32_t>(all.size());
         AG_CHECK(put(stream, all, "subdivision tiles", tiles));
-        AG_CHECK(put(stream, padded_tables(tables, tables.weights), "subdivision tables", weights));
+        AG_CHECK(put_tables(stream, tables.weights, lanes, weights));
     }
     AG_CHECK(put(stream, still, "vertices that stay", kept));
-    kept_count = static_cast<uint32_t>(still.size());
     steps.resize(source.steps.size());
-    for (size_t i = 0; i < steps.size(); ++i)
+    for (size_t i = 0; i < steps.size(); ++i) {
         AG_CHECK(upload_step(stream, source.steps[i], steps[i]));
+        AG_CHECK(make_points(stream, steps[i]));
+    }
     return {};
 }
 
@@ -241,40 +259,43 @@ Status DeviceSubdivision::State::upload_limit(vk::Stream& stream,
     const auto cut = Tiling(f).tiles(f, kLimitFacesPerLane * lanes.faces);
     limit->tile_count = static_cast<uint32_t>(cut.size());
     AG_CHECK(put(stream, cut, "limit tiles", limit->tiles));
-    AG_CHECK(put(stream, padded_tables(f, tables->position), "limit tables", limit->position));
-    AG_CHECK(put(stream, padded_tables(f, tables->tangent_u), "limit tables", limit->u));
-    AG_CHECK(put(stream, padded_tables(f, tables->tangent_v), "limit tables", limit->v));
+    AG_CHECK(put_tables(stream, tables->position, lanes, limit->position));
+    AG_CHECK(put_tables(stream, tables->tangent_u, lanes, limit->u));
+    AG_CHECK(put_tables(stream, tables->tangent_v, lanes, limit->v));
     return {};
 }
 
-uint64_t DeviceSubdivision::State::record_steps(vk::Stream& stream, uint64_t control,
-                                                uint32_t width, uint32_t channel,
-                                                uint32_t channels) const {
-    uint64_t from = control;
-    for (const Step& step : steps) {
-        const shared::SubdivideStepArgs args{0,
-                                             step.count,
-                                             width,
-                                             channel,
-                                             channels,
-                                             step.begin.address(),
-                                             step.index.address(),
-                                             step.weight.address(),
-                                             from,
-                                             step.points.address()};
-        stream.run(make_step, args, vk::group_count(step.count, shared::kSubdividePointGroup));
-        stream.barrier();
-        from = step.points.address();
-        width = kChannels;
-        channel = 0;
-    }
-    return from;
+void DeviceSubdivision::State::record_step(vk::Stream& stream, const Step& step, Numbers from,
+                                           Numbers to, uint32_t channels) const {
+    shared::SubdivideStepArgs args{};
+    args.count = step.count;
+    args.from_width = from.width;
+    args.from_channel = from.first;
+    args.to_width = to.width;
+    args.to_channel = to.first;
+    args.channels = channels;
+    args.begin = step.begin.address();
+    args.index = step.index.address();
+    args.weight = step.weight.address();
+    args.from = from.address;
+    args.to = to.address;
+    stream.run(make_step, args, vk::group_count(step.count, shared::kSubdividePointGroup));
 }
 
-void DeviceSubdivision::State::record_channels(vk::Stream& stream, uint64_t control,
-                                               uint64_t refined, uint32_t width,
-                                               uint32_t channel) const {
-    const uint32_t channels = std::min(width - channel, kChannels);
+Numbers DeviceSubdivision::State::record_steps(vk::Stream& stream, Numbers control,
+                                               uint32_t channels) const {
+    Numbers points = control;
+    for (const Step& step : steps) {
+        const Numbers next{step.points.address()};
+        record_step(stream, step, points, next, channels);
+        stream.barrier();
+        points = next;
+    }
+    return points;
+}
+
+void DeviceSubdivision::State::record_tables(vk::Stream& stream, Numbers from, Numbers to,
+                                             uint32_t channels) const {
     SubdivideArgs args{};
     args.blocks = blocks();
     args.corners = corners;
@@ -282,17 +303,17 @@ void DeviceSubdivision::State::record_channels(vk::Stream& stream, uint64_t cont
     args.columns = columns;
     args.stride = stride;
     args.channels = channels;
-    args.from_width = steps.empty() ? width : kChannels;
-    args.from_channel = steps.empty() ? channel : 0;
-    args.to_width = width;
-    args.to_channel = channel;
+    args.from_width = from.width;
+    args.from_channel = from.first;
+    args.to_width = to.width;
+    args.to_channel = to.first;
     args.tiles = tiles.address();
     args.faces = faces.address();
     args.ring = ring.address();
     args.weights = weights.address();
-    args.from = record_steps(stream, control, width, channel, channels);
-    args.to = refined;
-    stream.run(width == kChannels ? subdivide : subdivide_wide, args,
+    args.from = from.address;
+    args.to = to.address;
+    stream.run(to.width == kChannels ? subdivide : subdivide_wide, args,
                uint64_t{tile_count} * args.blocks);
 }
 
@@ -339,10 +360,13 @@ void DeviceSubdivision::record(vk::Stream& stream, uint64_t control, uint64_t re
               "wide vertices have less than 2^31 numbers");
     const State& s = *state_;
     s.keep(stream, s.kept, s.kept_count, control, refined, width);
-    if (s.tile_count == 0) return;
-    for (uint32_t channel = 0; channel < width; channel += kChannels) {
-        if (channel > 0 && has_steps()) stream.barrier();
-        s.record_channels(stream, control, refined, width, channel);
+    for (uint32_t first = 0; first < width; first += kChannels) {
+        const uint32_t channels = std::min(width - first, kChannels);
+        const Numbers from{control, width, first}, to{refined, width, first};
+        if (s.only) s.record_step(stream, *s.only, from, to, channels);
+        if (s.tile_count == 0) continue;
+        if (first > 0 && has_steps()) stream.barrier();
+        s.record_tables(stream, s.record_steps(stream, from, channels), to, channels);
     }
 }
 
@@ -365,7 +389,7 @@ void DeviceSubdivision::record_limit(vk::Stream& stream, uint64_t control, uint6
     args.position_weights = limit.position.address();
     args.u_weights = limit.u.address();
     args.v_weights = limit.v.address();
-    args.from = s.record_steps(stream, control, kChannels, 0, kChannels);
+    args.from = s.record_steps(stream, {control}, kChannels).address;
     args.positions = positions;
     args.normals = normals;
     stream.run(positions != 0 ? limit.all : limit.normals_only, args,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined points of faces of one class: their class's table times their rings. A weight that is
-// read serves all faces of an invocation.
+// Refined points of faces of one class: their class's table times their rings. Every invocation makes
+// some columns for some faces: what is read of the table serves all these faces, what is read of
+// the rings all these columns.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
@@ -34,14 +35,16 @@ void store_point(uint vertex, vec3 point) {
     if (args.channels > 2u) args.to.at[first + 2u] = point.z;
 }
 
-vec3 sum0 = vec3(0.0f), sum1 = vec3(0.0f), sum2 = vec3(0.0f), sum3 = vec3(0.0f);
+// [column * kFacesPerLane + face]
+vec3 sums[kColumnsPerLane * kFacesPerLane];
 
 void add_row(uint weight, uint ring) {
-    float w = args.weights.at[weight];
-    sum0 += w * ring_rows[ring].xyz;
-    sum1 += w * ring_rows[ring + 1u].xyz;
-    sum2 += w * ring_rows[ring + 2u].xyz;
-    sum3 += w * ring_rows[ring + 3u].xyz;
+    vec3 points[kFacesPerLane];
+    for (uint f = 0u; f < kFacesPerLane; ++f) points[f] = ring_rows[ring + f].xyz;
+    for (uint c = 0u; c < kColumnsPerLane; ++c) {
+        float w = args.weights.at[weight + c * kColumnLanes];
+        for (uint f = 0u; f < kFacesPerLane; ++f) sums[c * kFacesPerLane + f] += w * points[f];
+    }
 }
 
 void store_face(SubdivideTile tile, uint face, ColumnPlace place, vec3 point) {
@@ -51,26 +54,22 @@ void store_face(SubdivideTile tile, uint face, ColumnPlace place, vec3 point) {
 
 void main() {
     SubdivideTile tile = args.tiles.at[group_index() / args.blocks];
-    uint column = group_index() % args.blocks * kColumnLanes + column_lane();
-    uint weight = tile.weights + min(column, args.stride - 1u);
+    uint weight = tile.weights + first_column();
+    for (uint i = 0u; i < kColumnsPerLane * kFacesPerLane; ++i) sums[i] = vec3(0.0f);
     for (uint first = 0u; first < tile.rows; first += kSubdivideRows) {
         if (first > 0u) barrier();
         load_rings(tile, first);
         barrier();
         uint ring = first_face();
-        for (uint row = first; row < min(first + kSubdivideRows, tile.rows);
-             row += kSubdivideRowStep) {
+        for (uint row = first; row < min(first + kSubdivideRows, tile.rows); ++row) {
             add_row(weight, ring);
-            add_row(weight + args.stride, ring + kTileFaces);
-            add_row(weight + 2u * args.stride, ring + 2u * kTileFaces);
-            add_row(weight + 3u * args.stride, ring + 3u * kTileFaces);
-            weight += kSubdivideRowStep * args.stride;
-            ring += kSubdivideRowStep * kTileFaces;
+            weight += args.stride;
+            ring += kTileFaces;
         }
     }
-    ColumnPlace place = column_place(column);
-    store_face(tile, first_face(), place, sum0);
-    store_face(tile, first_face() + 1u, place, sum1);
-    store_face(tile, first_face() + 2u, place, sum2);
-    store_face(tile, first_face() + 3u, place, sum3);
+    for (uint c = 0u; c < kColumnsPerLane; ++c) {
+        ColumnPlace place = column_place(first_column() + c * kColumnLanes);
+        for (uint f = 0u; f < kFacesPerLane; ++f)
+            store_face(tile, first_face() + f, place, sums[c * kFacesPerLane + f]);
+    }
 }

@@ -2,32 +2,32 @@
 // What the kernels share that multiply tables by rings. They include this behind their push
 // constants and define kFacesPerLane, and load_point(vertex).
 
-layout(constant_id = 0) const uint kColumnLanes = 32u;  // invocations side by side in a row
-layout(constant_id = 1) const uint kFaceLanes = 1u;     // such sets of invocations in a group
-layout(local_size_x_id = 2) in;                         // kColumnLanes * kFaceLanes
+layout(constant_id = 0) const uint kFaceLanes = 1u;  // sets of kColumnLanes invocations
+layout(local_size_x_id = 1) in;                      // kColumnLanes * kFaceLanes
+layout(constant_id = 2) const uint kColumnsPerLane = 1u;
+const uint kColumnLanes = kSubdivideColumnLanes;
 
 const uint kTileFaces = kFaceLanes * kFacesPerLane;
 // The rows at hand of the tile's rings, those of one row side by side.
 shared vec4 ring_rows[kSubdivideRows * kTileFaces];
 
-uint column_lane() {
-    return kFaceLanes == 1u ? gl_LocalInvocationID.x : gl_LocalInvocationID.x % kColumnLanes;
+// The first column of the invocation; the others come kColumnLanes apart. Columns behind the last
+// read what lies behind the row, and are written nowhere.
+uint first_column() {
+    return group_index() % args.blocks * (kColumnLanes * kColumnsPerLane) +
+           gl_LocalInvocationID.x % kColumnLanes;
 }
-// The first face of the invocation in the tile. Where a group has one lane of faces the compiler
-// sees that all invocations read the same points.
-uint first_face() {
-    return kFaceLanes == 1u ? 0u : gl_LocalInvocationID.x / kColumnLanes * kFacesPerLane;
-}
+// The first face of the invocation in the tile.
+uint first_face() { return gl_LocalInvocationID.x / kColumnLanes * kFacesPerLane; }
 
-// Rows that tables have and rings lack, and faces that the tile lacks, are 0.
+// Rings of faces that the tile lacks are 0.
 void load_rings(SubdivideTile tile, uint first_row) {
     for (uint i = gl_LocalInvocationID.x; i < kSubdivideRows * kTileFaces;
          i += gl_WorkGroupSize.x) {
         uint face = i % kTileFaces, row = first_row + i / kTileFaces;
         if (row >= tile.rows) break;
         vec3 point = vec3(0.0f);
-        if (face < tile.face_count && row < tile.ring_size)
-            point = load_point(tile.ring + face * tile.ring_size, row);
+        if (face < tile.face_count) point = load_point(tile.ring + face * tile.rows, row);
         ring_rows[i] = vec4(point, 0.0f);
     }
 }

@@ -18,20 +18,23 @@ vec3 load_point(uint ring, uint row) {
 
 #include "aglow/refine/gpu/subdivide.glsl"
 
-vec3 position0 = vec3(0.0f), u0 = vec3(0.0f), v0 = vec3(0.0f);
-vec3 position1 = vec3(0.0f), u1 = vec3(0.0f), v1 = vec3(0.0f);
+// [column * kFacesPerLane + face]
+vec3 positions[kColumnsPerLane * kFacesPerLane];
+vec3 us[kColumnsPerLane * kFacesPerLane], vs[kColumnsPerLane * kFacesPerLane];
 
 void add_row(uint weight, uint ring) {
-    vec3 a = ring_rows[ring].xyz, b = ring_rows[ring + 1u].xyz;
-    float u = args.u_weights.at[weight], v = args.v_weights.at[weight];
-    u0 += u * a;
-    v0 += v * a;
-    u1 += u * b;
-    v1 += v * b;
-    if (kPositions == 1u) {
-        float w = args.position_weights.at[weight];
-        position0 += w * a;
-        position1 += w * b;
+    vec3 points[kFacesPerLane];
+    for (uint f = 0u; f < kFacesPerLane; ++f) points[f] = ring_rows[ring + f].xyz;
+    for (uint c = 0u; c < kColumnsPerLane; ++c) {
+        uint place = weight + c * kColumnLanes;
+        float u = args.u_weights.at[place], v = args.v_weights.at[place];
+        float w = kPositions == 1u ? args.position_weights.at[place] : 0.0f;
+        for (uint f = 0u; f < kFacesPerLane; ++f) {
+            uint i = c * kFacesPerLane + f;
+            us[i] += u * points[f];
+            vs[i] += v * points[f];
+            if (kPositions == 1u) positions[i] += w * points[f];
+        }
     }
 }
 
@@ -42,14 +45,15 @@ void store_face(SubdivideTile tile, uint face, ColumnPlace place, vec3 position,
     float size = sqrt(dot(normal, normal));
     args.normals.at[vertex] = size > 0.0f ? normal / size : vec3(0.0f);
     if (kPositions == 0u) return;
-    vec3 origin = args.from.at[args.ring.at[tile.ring + face * tile.ring_size]];
+    vec3 origin = args.from.at[args.ring.at[tile.ring + face * tile.rows]];
     args.positions.at[vertex] = origin + position;
 }
 
 void main() {
     SubdivideTile tile = args.tiles.at[group_index() / args.blocks];
-    uint column = group_index() % args.blocks * kColumnLanes + column_lane();
-    uint weight = tile.weights + min(column, args.stride - 1u);
+    uint weight = tile.weights + first_column();
+    for (uint i = 0u; i < kColumnsPerLane * kFacesPerLane; ++i)
+        positions[i] = us[i] = vs[i] = vec3(0.0f);
     for (uint first = 0u; first < tile.rows; first += kSubdivideRows) {
         if (first > 0u) barrier();
         load_rings(tile, first);
@@ -61,7 +65,11 @@ void main() {
             ring += kTileFaces;
         }
     }
-    ColumnPlace place = column_place(column);
-    store_face(tile, first_face(), place, position0, u0, v0);
-    store_face(tile, first_face() + 1u, place, position1, u1, v1);
+    for (uint c = 0u; c < kColumnsPerLane; ++c) {
+        ColumnPlace place = column_place(first_column() + c * kColumnLanes);
+        for (uint f = 0u; f < kFacesPerLane; ++f) {
+            uint i = c * kFacesPerLane + f;
+            store_face(tile, first_face() + f, place, positions[i], us[i], vs[i]);
+        }
+    }
 }

@@ -19,5 +19,8 @@ void main() {
         if (args.channels > 1u) sum.y += weight * args.from.at[first + 1u];
         if (args.channels > 2u) sum.z += weight * args.from.at[first + 2u];
     }
-    args.to.at[point] = sum;
+    uint first = point * args.to_width + args.to_channel;
+    args.to.at[first] = sum.x;
+    if (args.channels > 1u) args.to.at[first + 1u] = sum.y;
+    if (args.channels > 2u) args.to.at[first + 2u] = sum.z;
 }
