@@ -24,6 +24,7 @@ struct Draw {
     uint32_t first_vertex = 0, vertex_count = 0;  ///< places in `indices`, if there are any
     uint32_t first_instance = 0, instance_count = 1;
     const Buffer* indices = nullptr;  ///< uint32_t[]
+    bool whole = false;  ///< it is not cut, so that gl_PrimitiveID counts from its beginning
 };
 
 /// Where captured vertices go.

@@ -109,8 +109,8 @@ DrawWork work_of(const GraphicsPipeline& pipeline, const Draw& draw) {
     work.vertices = pipeline.primitive_vertices();
     work.primitives = work.vertices > 0 ? draw.vertex_count / work.vertices : draw.vertex_count;
     work.groups = work.primitives * draw.instance_count;
-    if (draw.instance_count > 1 || work.vertices == 0)
-        work.grain = std::max(work.primitives, uint64_t{1});
+    if (draw.whole || draw.instance_count > 1 || work.vertices == 0)
+        work.grain = std::max(draw.whole ? work.groups : work.primitives, uint64_t{1});
     return work;
 }
 
