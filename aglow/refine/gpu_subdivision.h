@@ -54,7 +54,8 @@ public:
     ///         once for each face; that of one of them is returned.
     Status evaluate(std::span<const vec3> control, std::span<vec3> refined);
     /// Refines again what evaluate() put there, `frames` times in a row, all on the device.
-    /// Result  time on the device of one frame, s.
+    /// Result  time of one frame, s, from recording the first until the last is done: software
+    ///         devices run draws when they like, beside their time stamps.
     /// Errors  as evaluate()
     Result<double> frame_seconds(int frames);
 

@@ -20,27 +20,38 @@ constexpr int kMostRays = 1 << 26;
 constexpr int kSide = 1024;
 constexpr int kMostSide = 16384;
 
-enum class Bench : uint8_t { accel, rays };
+enum class Bench : uint8_t { accel, rays, refine };
 
 struct Options {
     Bench bench = Bench::accel;
-    BenchOptions settings{.scenes = {}, .rays = kRays, .side = kSide};
+    BenchOptions settings{.scenes = {}, .rays = kRays, .side = kSide, .teaset = {}};
 };
 
 Table table(Options& o) {
     return {
-        {"TABLE", choice<Bench>(&o.bench, {{"accel", Bench::accel}, {"rays", Bench::rays}}), "",
-         "accel: acceleration structures on the GPU beside Embree; rays: frames drawn with them",
+        {"TABLE",
+         choice<Bench>(&o.bench,
+                       {{"accel", Bench::accel}, {"rays", Bench::rays}, {"refine", Bench::refine}}),
+         "",
+         "accel: acceleration structures on the GPU beside Embree; rays: frames drawn with them; "
+         "refine: subdivision on the GPU beside the CPU",
          Need::required},
         {"--scene",
          parsed_each(&o.settings.scenes,
                      [](const std::string& text) -> Result<std::string> { return text; }),
-         "NAME", "scene file or built-in scene; repeatable (default: still and moving ones)"},
+         "NAME", "scene file or built-in scene; repeatable (default: those of the table)"},
         {"--rays", whole(&o.settings.rays, 1, kMostRays), "N",
          "rays of each kind, of accel (default 262144)"},
+        {"--teaset", text(&o.settings.teaset), "FILE",
+         "Bezier patches of a teapot, a spoon and a cup, for refine (docs/performance.md)"},
         {"--side", whole(&o.settings.side, 1, kMostSide), "N",
          "width and height of the pictures of rays (default 1024)"},
     };
+}
+
+BenchTable table_of(Bench bench, const BenchOptions& settings) {
+    if (bench == Bench::accel) return accel_table(settings);
+    return bench == Bench::rays ? rays_table(settings) : refine_table(settings);
 }
 
 /// The GPU that --device names; the best of any kind unless it names one.
@@ -53,16 +64,15 @@ Result<Gpu> gpu_to_measure(const std::string& device) {
 }
 
 /// The first line of a table.
-std::string head_of(const Json& report) {
-    return fmt::format("{} beside Embree 3 on {}; ", report["device"].get<std::string>(),
+std::string head_of(const Json& report, const char* beside) {
+    return fmt::format("{} beside {} on {}; ", report["device"].get<std::string>(), beside,
                        report["cpu"].get<std::string>());
 }
 
 Result<int> run(const Options& options, Console& console) {
     AG_TRY(const Gpu gpu, gpu_to_measure(console.options().device));
     const BenchOptions& settings = options.settings;
-    const BenchTable measured =
-        options.bench == Bench::accel ? accel_table(settings) : rays_table(settings);
+    const BenchTable measured = table_of(options.bench, settings);
     Json report = {{"device", info(*gpu).name},
                    {"driver", info(*gpu).driver},
                    {"cpu", processor(console.options().threads)}};
@@ -74,7 +84,7 @@ Result<int> run(const Options& options, Console& console) {
         report["scenes"].insert(report["scenes"].end(), rows.begin(), rows.end());
     }
     console.result(console.json() ? to_text(report) + "\n"
-                                  : head_of(report) + measured.text(report));
+                                  : head_of(report, measured.beside) + measured.text(report));
     return kExitDone;
 }
 

@@ -18,6 +18,7 @@ struct BenchOptions {
     std::vector<std::string> scenes;  ///< files or built-in names; none: the table's own
     int rays = 0;                     ///< of each kind, of accel_table()
     int side = 0;                     ///< of pictures, in pixels, of rays_table()
+    std::string teaset;               ///< file of patches, of refine_table(); may be empty
 };
 
 /// A table that `aglow bench` measures.
@@ -29,6 +30,7 @@ struct BenchTable {
                             Console& console);
     /// The report as text for people: the settings, and all measurements in "scenes".
     std::string (*text)(const Json& report);
+    const char* beside = "Embree 3";  ///< what the device is compared with
 };
 
 /// Each structure built and traced on a GPU, and Embree beside it.
@@ -36,6 +38,9 @@ BenchTable accel_table(const BenchOptions& options);
 /// Frames of still and moving scenes drawn with each structure on a GPU, and on the CPU: with
 /// camera rays alone, with shadows, and with reflections.
 BenchTable rays_table(const BenchOptions& options);
+/// The objects of Concheiro et al., "Synthesis of Multiresolution Scenes ..." (2010), subdivided in
+/// all forms of GpuSubdivision, and on the CPU.
+BenchTable refine_table(const BenchOptions& options);
 
 /// The structures that tables compare.
 inline constexpr std::array kBenchAccels = {Accel::grid, Accel::grid2, Accel::bvh};
