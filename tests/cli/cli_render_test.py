@@ -121,6 +121,25 @@ class Pictures(harness.AglowTest):
         for word in ("llvmpipe", "cornell-box", "plane.gltf", "embree", "grid2", "bvh", "diffuse"):
             self.assertIn(word, text)
 
+    def test_subdivision_is_measured_in_all_forms(self):
+        arguments = ("bench", "refine", "--scene", "queen", "--device", "gpu:llvmpipe")
+        if not any("llvmpipe" in gpu for gpu in self.gpus()):
+            self.skipTest("there is no Vulkan driver")
+        report = self.json_of(*arguments)
+        self.assertEqual([row["level"] for row in report["scenes"]], [1, 2])
+        for row in report["scenes"]:
+            self.assertEqual(row["triangles"], row["coarse_triangles"] * 4 ** row["level"])
+            self.assertEqual([form["form"] for form in row["forms"]],
+                             ["compute", "NITM", "TA", "VS_OUTPUT"])
+            for form in row["forms"]:
+                self.assertLess(form["difference_to_cpu"], 1e-5)
+                self.assertGreater(form["fps"], 0)
+        text = self.run_aglow(*arguments).stdout
+        for word in ("beside the CPU", "queen", "VS_OUTPUT", "--teaset FILE"):
+            self.assertIn(word, text)
+        self.run_aglow("bench", "refine", "--scene", "cup", "--device", "gpu:llvmpipe", code=1,
+                       says="--teaset FILE")
+
     def test_frames_are_measured_with_more_and_more_rays(self):
         arguments = ("bench", "rays", "--scene", "cube-tc58.glb", "--side", "16", "--device",
                      "gpu:llvmpipe")
