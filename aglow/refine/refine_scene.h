@@ -31,7 +31,8 @@ struct RefineOptions {
     RefineScheme scheme = RefineScheme::loop;
     int level = 1;       ///< 2^level segments to an edge
     bool limit = false;  ///< subdivision: vertices go where infinitely many levels would put them
-    Corners corners = Corners::sharp;  ///< subdivision: what boundaries do where they turn
+    /// Subdivision: what boundaries do where they turn by more than 75 degrees.
+    Corners corners = Corners::sharp;
     ControlOptions control = {};
     std::optional<HeightDisplacement> displacement;
 };

@@ -110,8 +110,7 @@ int dispatch(const std::vector<std::string>& words, const Interrupt& interrupt) 
             return run_command(command, {words.begin() + 1, words.end()}, interrupt);
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
-    return report("aglow",
-                  no_such_choice(words[0], names, {"refine", "simplify", "view", "web"}).value());
+    return report("aglow", no_such_choice(words[0], names, {"simplify", "view", "web"}).value());
 }
 
 }  // namespace

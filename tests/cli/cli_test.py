@@ -138,8 +138,8 @@ class CommandLine(harness.AglowTest):
             ((*bake, "--encode", "hce"), "lightmap"),
             ((*bake, "--device", "gpu"), "--device cpu"),
             ((*bake, "--device", "gpu:llvmpipe"), "--device cpu"),
-            (("render", "lit.glb", "-o", "r.png", "--engine", "raster"), "rays"),
-            (("refine", "plane.gltf", "-o", "out.glb"), "refine"),
+            (("refine", "plane.gltf", "-o", "out.glb", "--device", "gpu"), "--device cpu"),
+            (("view", "plane.gltf"), "refine"),
             (("info", "strange.gltf"), "ACME_strange_light"),
         ]:
             with self.subTest(arguments):

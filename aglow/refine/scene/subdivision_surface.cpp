@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <optional>
 
 namespace aglow::refine {
@@ -36,22 +36,39 @@ Topology with_straight_boundaries(Topology mesh) {
     return mesh;
 }
 
-bool in_one_face(const Topology& mesh, uint32_t v) {
-    return mesh.on_boundary(v) && mesh.twin[mesh.previous(mesh.vertex_half[v])] == kNone;
+// A boundary that turns by more than this (75 degrees) has a corner there. Faces do not tell: a
+// square of two triangles has corners of one and of two.
+constexpr float kTurn = 75 * kPi / 180;
+
+/// By how much the boundary turns at a vertex of it, radians.
+float boundary_turn(const Topology& mesh, std::span<const vec3> positions, uint32_t v) {
+    uint32_t h = mesh.vertex_half[v];
+    const vec3 out = positions[mesh.end(h)] - positions[v];
+    while (mesh.twin[mesh.previous(h)] != kNone) h = mesh.twin[mesh.previous(h)];
+    const vec3 in = positions[v] - positions[mesh.vertex[mesh.previous(h)]];
+    return std::atan2(length(cross(in, out)), dot(in, out));
+}
+
+Topology with_corners(Topology mesh, std::span<const vec3> positions, Corners corners) {
+    for (uint32_t v = 0; v < mesh.vertex_count() && corners == Corners::sharp; ++v)
+        if (mesh.on_boundary(v) && boundary_turn(mesh, positions, v) > kTurn)
+            mesh.vertex_sharpness[v] = kSharp;
+    return mesh;
 }
 
 class SubdivisionSurface : public RefinedSurface {
 public:
     SubdivisionSurface(const ControlMesh& control, const RefineOptions& options)
-        : control_(control), limit_(options.limit) {
+        : control_(control),
+          topology_(with_corners(control.topology, control.positions, options.corners)),
+          limit_(options.limit) {
         subdivision_.scheme =
             options.scheme == RefineScheme::loop ? Scheme::loop : Scheme::catmull_clark;
         subdivision_.level = options.level;
-        subdivision_.corners = options.corners;
     }
 
     Status build() {
-        const Topology& topology = control_.topology;
+        const Topology& topology = topology_;
         AG_TRY(whole_, Subdivision::create(topology, subdivision_));
         AG_TRY(seams_, Subdivision::create(with_straight_boundaries(control_.seams), subdivision_));
         const std::vector<uint32_t> groups = corner_groups(topology, [&](uint32_t h, uint32_t) {
@@ -97,7 +114,7 @@ private:
     /// follow the same curves as the creases, so that only normals are taken from it.
     Status build_creases(std::span<const uint32_t> groups, const Topology& cut,
                          const Tessellation& cut_order, const Tessellation& whole_order) {
-        const Topology& topology = control_.topology;
+        const Topology& topology = topology_;
         if (std::ranges::none_of(topology.edge_sharpness, [](float s) { return s >= kSharp; }))
             return {};
         AG_TRY(Topology creased, cut_by(topology, topology.vertex, groups));
@@ -105,15 +122,10 @@ private:
         std::vector<uint32_t> copies(topology.vertex_count(), 0);
         for (uint32_t v = 0; v < creased.vertex_count(); ++v) {
             const uint32_t of = topology.vertex[creased.vertex_half[v]];
-            float& sharpness = creased.vertex_sharpness[v];
-            sharpness = std::max(sharpness, third[of]);
-            if (subdivision_.corners == Corners::sharp && in_one_face(topology, of))
-                sharpness = kSharp;
+            creased.vertex_sharpness[v] = std::max(creased.vertex_sharpness[v], third[of]);
             ++copies[of];
         }
-        SubdivisionOptions smooth = subdivision_;
-        smooth.corners = Corners::smooth;
-        AG_TRY(creases_, Subdivision::create(creased, smooth));
+        AG_TRY(creases_, Subdivision::create(creased, subdivision_));
         of_crease_ = refined_sources(cut, cut_order, creased, order_of(creased));
         // A crease that ends inside the surface fades: there the surface has one normal.
         std::vector<bool> parted(whole_order.vertex_count(), false);
@@ -130,7 +142,7 @@ private:
     Status place_creases(const Shape& shape, RefinedShape& refined) const {
         std::vector<vec3> control;
         for (const uint32_t h : creased_half_)
-            control.push_back(shape.positions[control_.topology.vertex[h]]);
+            control.push_back(shape.positions[topology_.vertex[h]]);
         std::vector<vec3> positions(creases_->vertex_count()), normals(creases_->vertex_count());
         AG_CHECK(creases_->evaluate_limit(control, positions, normals));
         for (const uint32_t v : parted_) refined.normals[v] = normals[of_crease_[v]];
@@ -157,7 +169,7 @@ private:
     }
 
     void number_faces(const CutNumbers& number) {
-        const Topology& topology = control_.topology;
+        const Topology& topology = topology_;
         if (subdivision_.scheme == Scheme::loop) {
             const std::vector<uvec3> all = whole_->triangles();
             const size_t each = size_t{1} << 2 * subdivision_.level;
@@ -183,6 +195,7 @@ private:
     }
 
     const ControlMesh& control_;
+    const Topology topology_;  ///< of the control mesh, with its corners
     SubdivisionOptions subdivision_;
     bool limit_ = false;
     std::optional<Subdivision> whole_, seams_, creases_;

@@ -21,7 +21,7 @@ template <class T>
 std::span<const float> floats_of(const std::vector<T>& values) {
     static_assert(sizeof(T) % sizeof(float) == 0);
     return {reinterpret_cast<const float*>(values.data()),
-            values.size() * (sizeof(T) / sizeof(float))};
+            std::span(values).size_bytes() / sizeof(float)};
 }
 
 void set_bounds(Json& accessor, std::span<const vec3> values) {

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/refine/refine_scene.h"
+
+#include "aglow/mesh/surfaces.h"
+#include "aglow/scene/load.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+using namespace aglow;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+Point point(vec3 p) { return {p.x, p.y, p.z}; }
+
+/// A cube of two primitives, the top apart from the rest; every side has its own texture
+/// coordinates and normals, as exporters write it.
+Scene cube() {
+    Scene scene;
+    scene.name = "cube";
+    Mesh mesh;
+    mesh.primitives.resize(2);
+    const auto add_side = [&](Primitive& p, vec3 n, vec3 u, vec3 v) {
+        const auto first = static_cast<uint32_t>(p.positions.size());
+        p.texcoords.resize(1);
+        for (const vec2 at : {vec2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+            p.positions.push_back(n + u * at.x + v * at.y);
+            p.normals.push_back(n);
+            p.texcoords[0].push_back({0.5f + 0.5f * at.x, 0.5f + 0.5f * at.y});
+        }
+        p.triangles.push_back({first, first + 1, first + 2});
+        p.triangles.push_back({first, first + 2, first + 3});
+    };
+    const vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    add_side(mesh.primitives[0], x, y, z);
+    add_side(mesh.primitives[0], x * -1.0f, z, y);
+    add_side(mesh.primitives[0], y * -1.0f, x, z);
+    add_side(mesh.primitives[0], z, x, y);
+    add_side(mesh.primitives[0], z * -1.0f, y, x);
+    add_side(mesh.primitives[1], y, z, x);
+    scene.meshes.push_back(std::move(mesh));
+    Node node;
+    node.mesh = 0;
+    scene.nodes.push_back(node);
+    return scene;
+}
+
+Scene refined(const Scene& scene, const RefineOptions& options) {
+    auto result = refine_scene(scene, options);
+    REQUIRE_MESSAGE(result, (result ? "" : to_string(result.error())));
+    return std::move(*result);
+}
+
+Scene refined(const Scene& scene, RefineScheme scheme, int level) {
+    RefineOptions options;
+    options.scheme = scheme;
+    options.level = level;
+    return refined(scene, options);
+}
+
+size_t triangle_count(const Scene& scene) {
+    size_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) count += p.triangles.size();
+    return count;
+}
+
+/// Edges of a posed scene, by the bits of their ends, that not exactly two triangles have.
+size_t open_edges(const Surfaces& surfaces) {
+    std::map<std::pair<Point, Point>, int> uses;
+    for (uint32_t t = 0; t < surfaces.triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const Point a = point(surfaces.corner(t, i)),
+                        b = point(surfaces.corner(t, (i + 1) % 3));
+            if (a != b) ++uses[std::minmax(a, b)];
+        }
+    return static_cast<size_t>(
+        std::ranges::count_if(uses, [](const auto& use) { return use.second % 2 != 0; }));
+}
+
+fs::path scenes_folder() {
+    if (const char* folder = std::getenv("AGLOW_SCENES")) return folder;
+    return fs::path(AGLOW_SOURCE_DIR) / ".." / "shared" / "scenes";
+}
+
+const std::array kSchemes = {RefineScheme::loop, RefineScheme::catmull_clark, RefineScheme::pn,
+                             RefineScheme::tagged, RefineScheme::phong};
+
+}  // namespace
+
+TEST_CASE("a level makes four triangles of one, in every primitive") {
+    const Scene scene = cube();
+    for (const RefineScheme scheme : kSchemes)
+        for (int level = 1; level <= 3; ++level) {
+            CAPTURE(static_cast<int>(scheme));
+            const Scene fine = refined(scene, scheme, level);
+            // Catmull-Clark makes three quads of a triangle, which are six triangles.
+            const size_t each =
+                scheme == RefineScheme::catmull_clark ? 6u << 2 * (level - 1) : 1u << 2 * level;
+            CHECK(fine.meshes[0].primitives[0].triangles.size() == 10 * each);
+            CHECK(fine.meshes[0].primitives[1].triangles.size() == 2 * each);
+        }
+    RefineOptions quads;
+    quads.scheme = RefineScheme::catmull_clark;
+    quads.control.quads = true;
+    quads.level = 2;
+    CHECK(triangle_count(refined(scene, quads)) == 12 * 16);
+}
+
+TEST_CASE("primitives and seams meet bitwise") {
+    const Scene scene = cube();
+    for (const RefineScheme scheme : kSchemes) {
+        CAPTURE(static_cast<int>(scheme));
+        const Scene fine = refined(scene, scheme, 3);
+        CHECK(open_edges(pose(fine)) == 0);
+        for (const Primitive& p : fine.meshes[0].primitives)
+            for (const vec3 n : p.normals) CHECK(length(n) == doctest::Approx(1).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("subdivision stays within the control mesh, and its limit inside that") {
+    const Scene scene = cube();
+    RefineOptions options;
+    for (const RefineScheme scheme : {RefineScheme::loop, RefineScheme::catmull_clark}) {
+        options.scheme = scheme;
+        options.level = 2;
+        float reach[2] = {0, 0};
+        for (const bool limit : {false, true}) {
+            options.limit = limit;
+            for (const vec3 p : pose(refined(scene, options)).positions)
+                for (const float x : {p.x, p.y, p.z})
+                    reach[limit ? 1 : 0] = std::max(reach[limit ? 1 : 0], std::fabs(x));
+        }
+        CHECK(reach[0] < 1);
+        CHECK(reach[1] < reach[0]);
+    }
+}
+
+TEST_CASE("creases keep a cube a cube, with a normal for each side") {
+    RefineOptions options;
+    options.level = 2;
+    for (const bool by_angle : {false, true}) {
+        options.control = {};
+        if (by_angle) options.control.crease_angle = 0.5f;
+        options.control.crease_at_normals = !by_angle;
+        const Scene fine = refined(cube(), options);
+        for (const Primitive& p : fine.meshes[0].primitives)
+            for (size_t v = 0; v < p.positions.size(); ++v) {
+                const vec3 x = p.positions[v], n = p.normals[v];
+                const float largest = std::max({std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)});
+                CHECK(largest == doctest::Approx(1).epsilon(1e-6));
+                CHECK(dot(x, n) == doctest::Approx(1).epsilon(1e-5));
+            }
+    }
+}
+
+TEST_CASE("texture coordinates keep the outline of their islands, and vertices are shared inside") {
+    const Scene fine = refined(cube(), RefineScheme::loop, 2);
+    const Primitive& top = fine.meshes[0].primitives[1];
+    CHECK(top.positions.size() == 5 * 5);
+    std::set<std::pair<float, float>> border;
+    for (const vec2 uv : top.texcoords[0]) {
+        CHECK(std::min(uv.x, uv.y) >= 0);
+        CHECK(std::max(uv.x, uv.y) <= 1);
+        if (uv.x == 0 || uv.x == 1 || uv.y == 0 || uv.y == 1) border.emplace(uv.x, uv.y);
+    }
+    CHECK(border.size() == 16);
+    CHECK(border.contains({0.25f, 0.0f}));
+}
+
+TEST_CASE("a morph target at weight 1 is its shape, refined") {
+    Scene scene = cube();
+    Scene shape = scene;
+    for (size_t i = 0; i < 2; ++i) {
+        Primitive& p = scene.meshes[0].primitives[i];
+        MorphTarget target;
+        for (vec3& x : shape.meshes[0].primitives[i].positions) {
+            const vec3 delta{0.5f * x.y, 0, 0.25f * x.x * x.y};
+            target.positions.push_back(delta);
+            x = x + delta;
+        }
+        p.targets.push_back(std::move(target));
+    }
+    scene.meshes[0].weights = {1};
+    for (const RefineScheme scheme : kSchemes) {
+        CAPTURE(static_cast<int>(scheme));
+        const Surfaces moved = pose(refined(scene, scheme, 2));
+        const Surfaces still = pose(refined(shape, scheme, 2));
+        REQUIRE(moved.positions.size() == still.positions.size());
+        float worst = 0;
+        for (size_t v = 0; v < moved.positions.size(); ++v)
+            worst = std::max(worst, length(moved.positions[v] - still.positions[v]));
+        CHECK(worst < 2e-6f);
+    }
+}
+
+TEST_CASE("a constant height moves every vertex by it, and no crack opens") {
+    RefineOptions options;
+    options.level = 2;
+    const std::array heights = {0.5f, 0.5f, 0.5f, 0.5f};
+    options.displacement = HeightDisplacement{make_height_map(heights, 2, 2), 0.2f, 0.05f};
+    const Surfaces moved = pose(refined(cube(), options));
+    options.displacement.reset();
+    const Surfaces still = pose(refined(cube(), options));
+    for (size_t v = 0; v < moved.positions.size(); ++v)
+        CHECK(length(moved.positions[v] - still.positions[v]) ==
+              doctest::Approx(0.15).epsilon(1e-4));
+    CHECK(open_edges(moved) == 0);
+}
+
+TEST_CASE("a height map that differs across seams does not open them") {
+    RefineOptions options;
+    options.level = 3;
+    std::vector<float> heights;
+    for (int i = 0; i < 64; ++i) heights.push_back(static_cast<float>(i * 37 % 64) / 64);
+    options.displacement = HeightDisplacement{make_height_map(heights, 8, 8), 0.1f, 0};
+    for (const RefineScheme scheme : kSchemes) {
+        options.scheme = scheme;
+        CHECK(open_edges(pose(refined(cube(), options))) == 0);
+    }
+}
+
+TEST_CASE("what makes no sense is refused with what to do") {
+    const Scene scene = cube();
+    const auto says = [&](const RefineOptions& options) {
+        const auto result = refine_scene(scene, options);
+        REQUIRE(!result);
+        CHECK(result.error().code == Errc::bad_argument);
+        return result.error().message;
+    };
+    RefineOptions options;
+    options.level = 0;
+    CHECK(says(options).find("outside 1 to 10") != std::string::npos);
+    options = {};
+    options.scheme = RefineScheme::pn;
+    options.limit = true;
+    CHECK(says(options).find("limit") != std::string::npos);
+    options = {};
+    options.control.quads = true;
+    CHECK(says(options).find("catmull-clark") != std::string::npos);
+    Scene large = scene;
+    large.meshes.resize(20, scene.meshes[0]);
+    options = {};
+    options.level = 10;
+    const auto result = refine_scene(large, options);
+    REQUIRE(!result);
+    // 240 triangles times 4^10
+    CHECK(result.error().message.find("251658240") != std::string::npos);
+    CHECK(result.error().message.find("level 9 fits") != std::string::npos);
+}
+
+TEST_CASE("work ends when it is cancelled") {
+    const std::atomic<bool> cancel = true;
+    Monitor monitor;
+    monitor.cancel = &cancel;
+    const auto result = refine_scene(cube(), {}, monitor);
+    REQUIRE(!result);
+    CHECK(result.error().code == Errc::cancelled);
+}
+
+TEST_CASE("skinned models: refined then posed is close to posed then refined, and closed") {
+    for (const char* name : {"CesiumMan/CesiumMan.glb", "Fox/Fox.glb"}) {
+        const fs::path path = scenes_folder() / "khronos" / name;
+        if (!fs::exists(path)) {
+            MESSAGE("no " << path.string() << "; skipped");
+            continue;
+        }
+        CAPTURE(name);
+        const auto scene = load_scene(path);
+        REQUIRE(scene);
+        const Scene fine = refined(*scene, RefineScheme::loop, 1);
+        for (const Primitive& p : fine.meshes[0].primitives)
+            for (size_t v = 0; v < p.positions.size(); ++v) {
+                float sum = 0;
+                for (size_t i = 0; i < 4; ++i) sum += p.weights[4 * v + i];
+                CHECK(sum == doctest::Approx(1).epsilon(1e-6));
+            }
+        // Boundaries of the model stay; refining puts one vertex on each of their edges.
+        const size_t boundary = open_edges(pose(*scene));
+        for (const double time : {0.0, 0.4, 1.1}) {
+            const Surfaces posed = pose(fine, time);
+            CHECK(open_edges(posed) == 2 * boundary);
+            // The coarse model, posed and frozen into a scene of its own.
+            Scene frozen;
+            const Surfaces coarse = pose(*scene, time);
+            Mesh mesh;
+            mesh.primitives.resize(1);
+            mesh.primitives[0].positions = coarse.positions;
+            mesh.primitives[0].normals = coarse.normals;
+            mesh.primitives[0].texcoords = coarse.texcoords;
+            mesh.primitives[0].triangles = coarse.triangles;
+            frozen.meshes.push_back(std::move(mesh));
+            frozen.nodes.emplace_back().mesh = 0;
+            const Surfaces direct = pose(refined(frozen, RefineScheme::loop, 1));
+            REQUIRE(direct.triangles.size() == posed.triangles.size());
+            Box box;
+            for (const vec3 p : direct.positions) box.add(p);
+            double sum = 0;
+            for (uint32_t t = 0; t < direct.triangles.size(); ++t)
+                for (int i = 0; i < 3; ++i)
+                    sum += static_cast<double>(length(direct.corner(t, i) - posed.corner(t, i)));
+            const double mean = sum / (3.0 * static_cast<double>(direct.triangles.size()));
+            CHECK(mean < 0.006 * static_cast<double>(length(box.hi - box.lo)));
+        }
+    }
+}

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""`aglow refine`: what it writes, what it keeps, and what it says when it cannot."""
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import zlib
+
+import harness
+from harness import ROOT, aglow
+
+SCENES = pathlib.Path(os.environ.get("AGLOW_SCENES", ROOT / ".." / "shared" / "scenes"))
+LARGEST = 3_000_000  # bytes of a scene; keeps the test within a minute
+
+
+def document_of(glb):
+    """The JSON of a .glb, and its binary chunk."""
+    data = glb.read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    return json.loads(data[20:20 + length]), data[28 + length:]
+
+
+def validate(files):
+    """Errors that the Khronos validator finds; none where it is not installed."""
+    if not (ROOT / "node_modules" / "gltf-validator").exists():
+        return ""
+    done = subprocess.run(["node", ROOT / "tools/validate_gltf.mjs", *files],
+                          capture_output=True, text=True)
+    return done.stdout + done.stderr if done.returncode else ""
+
+
+def write_white_png(path):
+    """2 x 2 pixels, 16-bit grey."""
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+    rows = b"".join(b"\0" + b"\xff" * 4 for _ in range(2))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">2I5B", 2, 2, 16, 0, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def crowd(path, plane):
+    """The triangles of a plane, a hundred times."""
+    document = json.loads(plane.read_text())
+    data = plane.with_suffix(".bin").read_bytes()
+    data = data[:48] + 100 * data[48:60]
+    document["accessors"][1]["count"] = 600
+    document["bufferViews"][1]["byteLength"] = 1200
+    document["buffers"][0] = {"byteLength": len(data), "uri": path.stem + ".bin"}
+    path.with_suffix(".bin").write_bytes(data)
+    path.write_text(json.dumps(document))
+
+
+class Refinement(harness.AglowTest):
+    def test_every_scheme_makes_four_triangles_of_one(self):
+        for scheme, triangles in (("loop", 2 * 16), ("pn", 2 * 16), ("st", 2 * 16),
+                                  ("phong", 2 * 16), ("catmull-clark", 2 * 24)):
+            report = self.json_of("refine", "plane.gltf", "-o", "fine.glb", "--scheme", scheme,
+                                  "--level", "2")
+            self.assertEqual(report["coarse"]["triangles"], 2)
+            self.assertEqual(report["refined"]["triangles"], triangles, scheme)
+            self.assertEqual(validate([self.dir / "fine.glb"]), "")
+            # The plane stays the plane: its corners are kept.
+            plane = self.json_of("info", "fine.glb")
+            self.assertEqual(plane["bounds"], {"low": [-10, 0, -10], "high": [10, 0, 10]})
+            self.assertAlmostEqual(plane["surface_area"], 400, places=3)
+        report = self.json_of("refine", "plane.gltf", "-o", "fine.gltf", "--scheme",
+                              "catmull-clark", "--quads", "--limit", "--level", "1")
+        self.assertEqual(report["refined"]["triangles"], 8)
+        self.assertEqual(report["outputs"], ["fine.gltf", "fine.bin"])
+        self.assertEqual(validate([self.dir / "fine.gltf"]), "")
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        for threads in (1, 4):
+            self.run_aglow("refine", "lit.glb", "-o", f"t{threads}.glb", "--threads", threads)
+        self.assertEqual((self.dir / "t1.glb").read_bytes(), (self.dir / "t4.glb").read_bytes())
+
+    def test_a_lit_scene_stays_lit(self):
+        self.run_aglow("refine", "lit.glb", "-o", "lit-fine.glb", "--creases-at-normals",
+                       "--level", "1")
+        for name in ("lit", "lit-fine"):
+            self.run_aglow("render", f"{name}.glb", "-o", f"seen-{name}.exr", "--size",
+                           "64x48", "--device", "cpu")
+        compared = self.json_of("compare", "seen-lit-fine.exr", "seen-lit.exr")
+        self.assertLess(compared["relative_rmse"], 0.02)
+
+    def test_what_the_file_had_is_kept(self):
+        document = json.loads((self.dir / "plane.gltf").read_text())
+        document["extras"] = {"made": "by hand"}
+        document["materials"][0]["extensions"] = {"EXT_of_someone": {"depth": 3}}
+        document["extensionsUsed"] = ["EXT_of_someone"]
+        primitive = document["meshes"][0]["primitives"][0]
+        primitive["extras"] = {"creases": [[0, 1]], "note": "floor"}
+        document["cameras"] = [{"type": "perspective",
+                                "perspective": {"yfov": 0.7, "znear": 0.1}}]
+        document["nodes"].append({"camera": 0, "translation": [0, 2, 5]})
+        (self.dir / "rich.gltf").write_text(json.dumps(document))
+        self.run_aglow("refine", "rich.gltf", "-o", "rich.glb", "--level", "3")
+        written, _ = document_of(self.dir / "rich.glb")
+        for key in ("extras", "materials", "cameras", "nodes", "extensionsUsed"):
+            self.assertEqual(written[key], document[key])
+        self.assertEqual(written["meshes"][0]["primitives"][0]["extras"], {"note": "floor"})
+
+    def test_displacement_moves_by_scale_times_height_plus_bias(self):
+        document = json.loads((self.dir / "plane.gltf").read_text())
+        uvs = struct.pack("<8f", 0, 0, 0, 1, 1, 1, 1, 0)
+        document["buffers"].append({"byteLength": 32, "uri": "uvs.bin"})
+        document["bufferViews"].append({"buffer": 1, "byteLength": 32})
+        document["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4,
+                                      "type": "VEC2"})
+        document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+        (self.dir / "uvs.bin").write_bytes(uvs)
+        (self.dir / "flat.gltf").write_text(json.dumps(document))
+        write_white_png(self.dir / "white.png")  # every height is 1
+        self.run_aglow("refine", "flat.gltf", "-o", "up.glb", "--displace", "white.png",
+                       "--displace-scale", "0.5", "--displace-bias", "-0.125")
+        bounds = self.json_of("info", "up.glb")["bounds"]
+        self.assertAlmostEqual(bounds["low"][1], 0.375, places=5)
+        self.assertAlmostEqual(bounds["high"][1], 0.375, places=5)
+
+    def test_errors_say_what_to_do_and_leave_no_file(self):
+        refine = ("refine", "plane.gltf", "-o", "none.glb")
+        crowd(self.dir / "crowd.gltf", self.dir / "plane.gltf")
+        before = self.folder_names()
+        for arguments, code, says in [
+            ((*refine, "--scheme", "butterfly"), 1, "catmull-clark"),
+            ((*refine, "--level", "0"), 1, "--level"),
+            ((*refine, "--level", "11"), 1, "--level"),
+            ((*refine, "--scheme", "pn", "--level", "9"), 1, "1 to 8"),
+            ((*refine, "--quads"), 1, "catmull-clark"),
+            ((*refine, "--scheme", "pn", "--limit"), 1, "limit"),
+            ((*refine, "--displace-scale", "2"), 1, "--displace"),
+            ((*refine, "--crease", "200"), 1, "--crease"),
+            ((*refine, "--displace", "absent.png"), 2, "absent.png"),
+            (("refine", "absent.glb", "-o", "none.glb"), 2, "absent.glb"),
+            (("refine", "plane.gltf", "-o", "none.txt"), 1, ".glb"),
+            (("refine", "lit.glb", "-o", "lit.glb"), 1, "input"),
+            (("refine", "plane.bin", "-o", "none.glb"), 3, "plane.bin"),
+            (("refine", "crowd.gltf", "-o", "none.glb", "--level", "10"), 1,
+             "would make 209715200 triangles of 200"),
+            (("refine", "plane.gltf", "-o", "plane2.gltf", "--device", "gpu"), 5, "CPU"),
+        ]:
+            with self.subTest(arguments):
+                self.run_aglow(*arguments, code=code, says=says)
+        self.assertEqual(self.folder_names(), before)
+
+    def test_real_scenes_are_refined_and_valid(self):
+        if not SCENES.is_dir():
+            self.skipTest(f"no scenes in {SCENES}")
+        files = sorted(f for ending in ("glb", "gltf") for f in SCENES.rglob(f"*.{ending}")
+                       if f.stat().st_size < LARGEST)
+        out = self.dir / "real"
+        out.mkdir()
+        for i, file in enumerate(files):
+            scheme = ("loop", "catmull-clark", "pn", "phong", "st")[i % 5]
+            done = aglow("refine", file, "-o", out / f"{i}.glb", "--level", "1", "--scheme", scheme,
+                         "--quiet", cwd=self.dir)
+            self.assertEqual(done.returncode, 0, f"{file}: {done.stderr}")
+        self.assertEqual(validate(sorted(out.glob("*.glb"))), "")
+
+
+if __name__ == "__main__":
+    harness.main()
