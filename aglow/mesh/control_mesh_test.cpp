@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/mesh/control_mesh.h"
+#include "aglow/core/testing/scenes.h"
 
 #include "aglow/mesh/testing/control_check.h"
 #include "aglow/mesh/testing/meshes.h"
@@ -9,7 +10,6 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 using namespace aglow;
@@ -335,12 +335,8 @@ TEST_CASE("any triangles become a control mesh in which all that must hold holds
 }
 
 TEST_CASE("all meshes of the scenes at hand become control meshes") {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    const std::filesystem::path folder = variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes";
-    if (!std::filesystem::exists(folder)) {
-        MESSAGE("skipped: no scenes at " << folder.string());
-        return;
-    }
+    const std::filesystem::path folder = scenes_folder();
+    if (!is_here(folder)) return;
     int count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;

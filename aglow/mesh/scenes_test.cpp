@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "aglow/core/testing/scenes.h"
 #include "aglow/mesh/testing/layout_check.h"
 #include "aglow/mesh/testing/meshes.h"
 #include "aglow/mesh/unwrap.h"
@@ -7,17 +8,10 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 using namespace aglow;
 using namespace aglow::mesh::testing;
 
 namespace {
-
-std::filesystem::path scene_folder() {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    return variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes";
-}
 
 struct Laid {
     Atlas atlas;
@@ -53,17 +47,14 @@ TEST_CASE("the Cornell box covers more than 200 000 texels of an atlas of 512 x 
 }
 
 TEST_CASE("real scenes are laid out without overlap or loss") {
-    if (!std::filesystem::exists(scene_folder())) {
-        MESSAGE("skipped: no scenes at " << scene_folder().string());
-        return;
-    }
+    if (!is_here(scenes_folder())) return;
     for (const char* name :
          {"khronos/NegativeScaleTest/NegativeScaleTest.glb", "khronos/Suzanne/Suzanne.gltf",
           "khronos/SimpleInstancing/SimpleInstancing.glb", "khronos/CesiumMan/CesiumMan.glb",
           "khronos/MeshPrimitiveModes/MeshPrimitiveModes.gltf",
           "rooms/godot-living-room/living_room.glb"}) {
         CAPTURE(name);
-        Result<Scene> scene = load_scene(scene_folder() / name);
+        Result<Scene> scene = load_scene(scenes_folder() / name);
         REQUIRE_MESSAGE(scene.has_value(), (scene ? "" : to_string(scene.error())));
         const Laid laid = lay_out_scene(*scene, 256);
         const LayoutFaults faults = find_faults(laid.surfaces, laid.atlas, 2);
@@ -78,11 +69,8 @@ TEST_CASE("real scenes are laid out without overlap or loss") {
 }
 
 TEST_CASE("a room made with lightmap UVs keeps them") {
-    const auto path = scene_folder() / "rooms/bevy-cornellbox/CornellBox.glb";
-    if (!std::filesystem::exists(path)) {
-        MESSAGE("skipped: no scene at " << path.string());
-        return;
-    }
+    const auto path = scenes_folder() / "rooms/bevy-cornellbox/CornellBox.glb";
+    if (!is_here(path)) return;
     Result<Scene> scene = load_scene(path);
     REQUIRE(scene.has_value());
     const Laid laid = lay_out_scene(*scene, 256);

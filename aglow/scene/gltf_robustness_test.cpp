@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damaged, deep and greedy files: an error or a scene, never a crash.
 #include "aglow/core/file.h"
+#include "aglow/core/testing/scenes.h"
 #include "aglow/scene/gltf/container.h"
 #include "aglow/scene/gltf/test_files.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real files: each loads, keeps the promises of Scene, and holds the bounds it says it has.
 #include "aglow/core/file.h"
+#include "aglow/core/testing/scenes.h"
 #include "aglow/scene/gltf/test_files.h"
 #include "aglow/scene/gltf_source.h"
 

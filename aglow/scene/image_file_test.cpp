@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/image_file.h"
+#include "aglow/core/testing/scenes.h"
 
 #include "aglow/core/file.h"
 #include "tests/temporary_folder.h"
@@ -9,7 +10,6 @@
 
 #include <rapidcheck.h>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 using namespace aglow;
@@ -205,13 +205,8 @@ TEST_CASE("any image survives EXR bit for bit") {
 }
 
 TEST_CASE("published skies are read whole") {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    const fs::path sky = fs::path(variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes") /
-                         "hdri" / "kiara_1_dawn_1k.hdr";
-    if (!fs::exists(sky)) {
-        MESSAGE("skipped: " << sky.string() << " is not here");
-        return;
-    }
+    const fs::path sky = scenes_folder() / "hdri" / "kiara_1_dawn_1k.hdr";
+    if (!is_here(sky)) return;
     const auto image = read_image(sky);
     REQUIRE(image);
     CHECK(image->width == 1024);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/obj/obj.h"
+#include "aglow/core/testing/scenes.h"
 
 #include "aglow/core/file.h"
 #include "aglow/scene/image_file.h"
@@ -13,7 +14,6 @@
 #include <rapidcheck.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 using namespace aglow;
@@ -265,12 +265,8 @@ TEST_CASE("any star-shaped polygon is cut into size - 2 triangles of its area") 
 }
 
 TEST_CASE("published OBJ files load whole") {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    const fs::path root = variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes";
-    if (!fs::exists(root)) {
-        MESSAGE("skipped: " << root.string() << " is not here");
-        return;
-    }
+    const fs::path root = scenes_folder();
+    if (!is_here(root)) return;
     size_t loaded = 0;
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         if (entry.path().extension() != ".obj" || entry.file_size() > (20u << 20)) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/photometry.h"
+#include "aglow/core/testing/scenes.h"
 
 #include "aglow/core/file.h"
 #include "aglow/core/random.h"
@@ -9,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -75,12 +75,6 @@ void check_same(const Photometry& a, const Photometry& b) {
                                  static_cast<double>(random.uniform()) * 180);
         CHECK(intensity(a, d) == doctest::Approx(intensity(b, d)).epsilon(2e-4));
     }
-}
-
-std::filesystem::path collection() {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    const std::filesystem::path scenes = variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes";
-    return scenes / "photometry";
 }
 
 }  // namespace
@@ -211,12 +205,10 @@ TEST_CASE("files cut anywhere end in an error or read what is whole") {
 }
 
 TEST_CASE("published IES and EULUMDAT files load") {
-    if (!std::filesystem::exists(collection())) {
-        MESSAGE("skipped: there is no " << collection().string());
-        return;
-    }
+    const std::filesystem::path folder = scenes_folder() / "photometry";
+    if (!is_here(folder)) return;
     int count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(collection())) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const std::string ending = entry.path().extension().string();
         if (ending != ".ies" && ending != ".ldt") continue;
         const auto p = read_photometry(*read_file(entry.path()));

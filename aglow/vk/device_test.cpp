@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/vk/device.h"
 
-#include "aglow/vk/testing/demand.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>

@@ -61,6 +61,8 @@ def allowed(parts, stage, header):
         return mine not in {"shared", "core", "scene"}
     if stage not in MAY_INCLUDE[mine]:
         return False
+    if (stage, folders) == ("core", ["testing"]):  # tests beside the code
+        return parts[-1].endswith("_test.cpp") or "testing" in my_folders
     return is_public(stage, folders) or (
         shared_folder(folders) is not None and
         shared_folder(folders) == shared_folder(my_folders))

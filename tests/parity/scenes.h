@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "aglow/core/testing/scenes.h"
 #include "aglow/mesh/surfaces.h"
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,10 +29,7 @@ inline std::vector<TestScene> test_scenes() {
     std::vector<TestScene> scenes;
     for (const char* name : {"cornell-box", "living-room", "corridor", "stress:20000"})
         scenes.push_back(opaque_scene(name, *builtin_scene(name)));
-    const char* named = std::getenv("AGLOW_SCENES");
-    const std::filesystem::path folder =
-        named ? std::filesystem::path(named)
-              : std::filesystem::path(AGLOW_SOURCE_DIR) / ".." / "shared" / "scenes";
+    const std::filesystem::path folder = scenes_folder();
     for (const char* file :
          {"rooms/godot-living-room/living_room.glb", "rooms/playcanvas-house/house.glb"})
         if (auto scene = load_scene(folder / file))

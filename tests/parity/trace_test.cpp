@@ -3,7 +3,7 @@
 #include "aglow/accel/gpu/testing/agreement.h"
 #include "aglow/accel/gpu/testing/rays.h"
 #include "aglow/accel/gpu_scene.h"
-#include "aglow/vk/testing/demand.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 #include "tests/parity/scenes.h"
 
@@ -11,7 +11,6 @@
 
 using namespace aglow;
 using namespace aglow::testing;
-using vk::demand;
 
 namespace {
 

@@ -3,14 +3,13 @@
 
 #include "aglow/accel/gpu/testing/closed_meshes.h"
 #include "aglow/accel/gpu/testing/rays.h"
-#include "aglow/vk/testing/demand.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>
 
 using namespace aglow;
 using namespace aglow::testing;
-using vk::demand;
 
 namespace {
 

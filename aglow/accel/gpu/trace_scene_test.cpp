@@ -4,8 +4,8 @@
 #include "aglow/accel/gpu/testing/agreement.h"
 #include "aglow/accel/gpu/trace_rays.h"
 #include "aglow/core/random.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/shared/triangle.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,6 @@ using shared::RayQuery;
 using shared::Triangle;
 using testing::Judge;
 using testing::Verdict;
-using vk::demand;
 
 namespace {
 

@@ -2,6 +2,7 @@
 // Helpers of the round-trip tests: bake fake light, write, load, compare.
 #pragma once
 #include "aglow/core/file.h"
+#include "aglow/core/testing/scenes.h"
 #include "aglow/encode/lit_gltf.h"
 #include "aglow/encode/testing/cell_layout.h"
 #include "aglow/scene/load.h"
@@ -11,7 +12,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -90,11 +90,6 @@ inline std::vector<std::array<float, 9>> triangle_set(const Surfaces& surfaces) 
     }
     std::ranges::sort(set);
     return set;
-}
-
-inline std::filesystem::path scenes_folder() {
-    if (const char* folder = std::getenv("AGLOW_SCENES")) return folder;
-    return std::filesystem::path(AGLOW_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
 /// Runs the Khronos validator where it is installed. True where it found no error.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/mesh/gpu/device_surfaces.h"
+#include "aglow/core/testing/scenes.h"
 
+#include "aglow/core/testing/demand.h"
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 #include "aglow/shared/ray.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/primitives.h"
 
 #include <doctest/doctest.h>
 
 #include <rapidcheck.h>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <set>
@@ -18,7 +18,6 @@
 using namespace aglow;
 using mesh::gpu::DeviceSurfaces;
 using mesh::gpu::PartMotion;
-using vk::demand;
 
 namespace {
 
@@ -103,12 +102,6 @@ Difference difference(vk::TestStream& test, const Scene& scene, std::span<const 
 }
 
 constexpr std::array<double, 5> kTimes = {-1, 0, 0.37, 1.21, 100};
-
-std::filesystem::path scene_folder() {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    return std::filesystem::path(variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes") /
-           "khronos";
-}
 
 bool is_posed(const Scene& scene) {
     return !scene.animations.empty() || !scene.skins.empty() ||
@@ -262,15 +255,13 @@ TEST_CASE("built-in scenes are posed on the device as on the host") {
 }
 
 TEST_CASE("all animated public test models are posed on the device as on the host") {
-    if (!std::filesystem::exists(scene_folder())) {
-        MESSAGE("skipped: no scenes at " << scene_folder().string());
-        return;
-    }
+    const std::filesystem::path folder = scenes_folder() / "khronos";
+    if (!is_here(folder)) return;
     const vk::TestDevice device;
     if (!device) return;
     vk::TestStream test(device);
     int posed = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(scene_folder())) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         const std::string type = entry.path().extension().string();
         if (type != ".gltf" && type != ".glb") continue;
         const auto scene = load_scene(entry.path());

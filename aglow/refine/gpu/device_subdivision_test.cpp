@@ -17,7 +17,6 @@
 using namespace aglow;
 using namespace aglow::refine::testing;
 using refine::gpu::DeviceSubdivision;
-using vk::demand;
 
 namespace {
 

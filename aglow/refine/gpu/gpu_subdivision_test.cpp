@@ -13,7 +13,6 @@
 
 using namespace aglow;
 using namespace aglow::refine::testing;
-using vk::demand;
 
 namespace {
 

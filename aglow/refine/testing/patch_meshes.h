@@ -2,6 +2,7 @@
 // Coarse meshes for the tests of patches.
 #pragma once
 #include "aglow/core/random.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/mesh/topology.h"
 #include "aglow/refine/patches.h"
 
@@ -151,12 +152,6 @@ inline std::vector<float> levels_of_cut(const Topology& cut, const Topology& who
     std::vector<float> result;
     for (const uint32_t h : cut.edge_half) result.push_back(levels[whole.edge[h]]);
     return result;
-}
-
-template <class T>
-T demand(Result<T> result) {
-    REQUIRE_MESSAGE(result, result.error().message);
-    return std::move(*result);
 }
 
 }  // namespace aglow::refine::testing

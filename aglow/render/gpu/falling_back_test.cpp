@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "aglow/core/testing/demand.h"
 #include "aglow/render/testing/stage.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <cmath>
 
 using namespace aglow;
 using namespace aglow::render::testing;
-using vk::demand;
 
 namespace {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures drawn on a GPU against those of the CPU renderer, pixel by pixel.
+#include "aglow/core/testing/demand.h"
+#include "aglow/core/testing/scenes.h"
 #include "aglow/render/compare.h"
 #include "aglow/render/testing/stage.h"
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"
 #include "aglow/scene/photometry.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <algorithm>
@@ -20,7 +21,6 @@
 
 using namespace aglow;
 using namespace aglow::render::testing;
-using vk::demand;
 
 namespace {
 
@@ -184,11 +184,6 @@ private:
     int moving_ = -1;
 };
 
-std::filesystem::path scene_folder() {
-    const char* variable = std::getenv("AGLOW_SCENES");
-    return variable ? variable : AGLOW_SOURCE_DIR "/../shared/scenes";
-}
-
 }  // namespace
 
 TEST_CASE("a GPU and the CPU draw the same picture of everything that shaders read") {
@@ -235,11 +230,8 @@ TEST_CASE("a GPU and the CPU draw the same rooms") {
 TEST_CASE("a GPU and the CPU draw the same of models in motion") {
     vk::TestDevice device;
     if (!device) return;
-    const auto folder = scene_folder() / "khronos";
-    if (!std::filesystem::exists(folder)) {
-        MESSAGE("skipped: no scenes at " << folder.string());
-        return;
-    }
+    const auto folder = scenes_folder() / "khronos";
+    if (!is_here(folder)) return;
     for (const char* name : {"BoxAnimated", "CesiumMan", "Fox", "AnimatedMorphCube"}) {
         CAPTURE(name);
         Scene scene = demand(load_scene(folder / name / (std::string(name) + ".glb")));

@@ -4,7 +4,6 @@
 #include "aglow/scene/load.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
@@ -97,12 +96,6 @@ inline constexpr const char* kTriangleMesh =
 inline Bytes triangle_file(const std::string& more = "", const std::string& mesh = kTriangleMesh) {
     const std::string members = std::string(kTriangleBuffers) + ", " + mesh + more;
     return glb(document(members), triangle_bytes());
-}
-
-/// Folder of the public test scenes; may be absent.
-inline std::filesystem::path scenes_folder() {
-    if (const char* folder = std::getenv("AGLOW_SCENES")) return folder;
-    return std::filesystem::path(AGLOW_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
 }  // namespace aglow::gltf_test

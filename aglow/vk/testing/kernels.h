@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/kernel.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/iota.comp.h"
 #include "aglow/vk/testing/shift.comp.h"
 

@@ -2,8 +2,8 @@
 // What the tests of the primitives share: sizes to try, values to fill them with, a stream.
 #pragma once
 #include "aglow/core/random.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/testing/copy.comp.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "aglow/core/testing/demand.h"
 #include "aglow/vk/device.h"
 #include "aglow/vk/instance.h"
 #include "aglow/vk/stream.h"
-#include "aglow/vk/testing/demand.h"
 
 #include <doctest/doctest.h>
 

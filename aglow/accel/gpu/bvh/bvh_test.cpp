@@ -375,7 +375,7 @@ TEST_CASE("a sibling is an empty tree that is built for itself") {
     fixture.build(first);
     auto sibling = fixture.bvh->sibling();
     CHECK(sibling->stats().cells == 0);
-    BvhFixture::demand(sibling->build(fixture.stream, fixture.upload(second)));
+    demand(sibling->build(fixture.stream, fixture.upload(second)));
     fixture.stream.barrier();
     CHECK(sibling->stats().references == second.size());
     check_hits(fixture, first, rays_at(first, 500));
@@ -392,10 +392,10 @@ TEST_CASE("memory that cannot be had is an error that says how much is needed") 
             BvhFixture fixture(probe);
             const TriangleSpan span = fixture.upload(triangles);
             const int before = probe->allocation_count();
-            BvhFixture::demand(fixture.bvh->build(fixture.stream, span));
+            demand(fixture.bvh->build(fixture.stream, span));
             allocations = probe->allocation_count() - before;
             options.faults.fail_allocation = before + n;
-            BvhFixture::demand(fixture.stream.finish());
+            demand(fixture.stream.finish());
         }
         vk::TestDevice device(options);
         BvhFixture fixture(device);

@@ -4,9 +4,9 @@
 #include "aglow/accel/gpu/testing/bvh_rays.comp.h"
 #include "aglow/accel/gpu/testing/grid_reference.h"
 #include "aglow/core/random.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/shared/structure.h"
 #include "aglow/shared/triangle.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <array>
@@ -109,11 +109,6 @@ public:
           nearest_(kernel(device.gpu(), {0, 1, 0})),
           any_(kernel(device.gpu(), {1, 1, 0})),
           every_triangle_(kernel(device.gpu(), {0, 0, 1})) {}
-
-    template <class T>
-    static T demand(Result<T> result) {
-        return vk::demand(std::move(result));
-    }
 
     TriangleSpan upload(const Triangles& triangles) {
         demand(stream.finish());

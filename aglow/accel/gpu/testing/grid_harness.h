@@ -4,9 +4,9 @@
 #include "aglow/accel/gpu/testing/grid_rays.comp.h"
 #include "aglow/accel/gpu/testing/grid_read.comp.h"
 #include "aglow/accel/gpu/testing/grid_reference.h"
+#include "aglow/core/testing/demand.h"
 #include "aglow/shared/structure.h"
 #include "aglow/vk/device.h"
-#include "aglow/vk/testing/demand.h"
 
 #include <array>
 #include <span>
@@ -18,7 +18,6 @@ namespace aglow::accel::gpu {
 using shared::RayHit;
 using shared::RayQuery;
 using shared::Triangle;
-using vk::demand;
 
 /// What a grid answered, and what it cost.
 struct Traced {

@@ -2,10 +2,10 @@
 // Pictures of engine `raster` against those of engine `rays` and against closed forms.
 #include "aglow/render/raster.h"
 
+#include "aglow/core/testing/demand.h"
 #include "aglow/render/compare.h"
 #include "aglow/render/testing/stage.h"
 #include "aglow/scene/builtin.h"
-#include "aglow/vk/testing/demand.h"
 #include "aglow/vk/testing/test_device.h"
 
 #include <algorithm>
@@ -17,7 +17,6 @@
 
 using namespace aglow;
 using namespace aglow::render::testing;
-using vk::demand;
 
 namespace {
 

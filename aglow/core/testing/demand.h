@@ -6,16 +6,16 @@
 
 #include <utility>
 
-namespace aglow::vk {
+namespace aglow {
 
 /// The value that a test cannot do without: an error ends the test with its message.
 template <class T>
 T demand(Result<T> result) {
-    REQUIRE_MESSAGE(result.has_value(), result.error().message);
+    if (!result) FAIL(to_string(result.error()));
     return std::move(*result);
 }
 inline void demand(const Status& status) {
-    REQUIRE_MESSAGE(status.has_value(), status.error().message);
+    if (!status) FAIL(to_string(status.error()));
 }
 
-}  // namespace aglow::vk
+}  // namespace aglow
