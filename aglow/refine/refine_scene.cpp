@@ -3,6 +3,7 @@
 
 #include "aglow/refine/pattern.h"
 #include "aglow/refine/scene/refine_mesh.h"
+#include "aglow/scene/gltf_source.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,35 @@ Status check_size(const Scene& scene, const RefineOptions& options) {
                             fits > 0 ? fmt::format("level {} fits", fits) : "no level fits"));
 }
 
+/// The heights that a mesh names itself; all its primitives have one map.
+Result<std::optional<HeightDisplacement>> own_heights(const Scene& scene, const Mesh& mesh) {
+    for (const Primitive& p : mesh.primitives) {
+        if (!p.displacement) continue;
+        const std::filesystem::path folder = scene.source ? scene.source->folder : "";
+        HeightDisplacement own;
+        AG_TRY(own.map, read_height_map(folder / p.displacement->file));
+        own.scale = p.displacement->scale;
+        own.bias = p.displacement->bias;
+        own.texcoord = p.displacement->texcoord;
+        return std::optional(std::move(own));
+    }
+    return std::optional<HeightDisplacement>();
+}
+
+/// A mesh with heights of its own stays flat under them; creases and quads would change the
+/// surface that they stand on.
+Result<Mesh> refined_mesh(const Scene& scene, const Mesh& mesh, const RefineOptions& options,
+                          std::vector<std::string>& warnings) {
+    if (options.displacement) return refine::refine_mesh(mesh, options, warnings);
+    AG_TRY(std::optional<HeightDisplacement> heights, own_heights(scene, mesh));
+    if (!heights) return refine::refine_mesh(mesh, options, warnings);
+    RefineOptions flat;
+    flat.scheme = RefineScheme::flat;
+    flat.level = options.level;
+    flat.displacement = std::move(heights);
+    return refine::refine_mesh(mesh, flat, warnings);
+}
+
 }  // namespace
 
 int finest_level(RefineScheme scheme) {
@@ -69,10 +99,11 @@ Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,
         if (monitor.cancelled()) return fail(Errc::cancelled, "interrupted");
         monitor("refine", static_cast<double>(m) / static_cast<double>(scene.meshes.size()));
         std::vector<std::string> warnings;
-        auto mesh = refine::refine_mesh(scene.meshes[m], options, warnings);
+        auto mesh = refined_mesh(scene, scene.meshes[m], options, warnings);
         const std::string name = fmt::format("mesh {} \"{}\"", m, scene.meshes[m].name);
         if (!mesh)
-            return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message));
+            return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message),
+                        mesh.error().context);
         refined.meshes[m] = std::move(*mesh);
         for (const std::string& warning : warnings)
             refined.warnings.push_back(fmt::format("{}: {}", name, warning));

@@ -18,13 +18,15 @@ enum class RefineScheme : uint8_t {
     pn,             ///< curved PN triangles
     tagged,         ///< the same, shaped by _SHARPNESS, _TENSION and _BIAS
     phong,          ///< Phong tessellation
+    flat,           ///< triangles stay flat under linear normals: what heights are baked over
 };
 
-/// Height along the normals: scale * map(uv) + bias, by the first set of texture coordinates.
+/// Height along the normals: scale * map(uv) + bias.
 struct HeightDisplacement {
     HeightMap map;
-    float scale = 1;  ///< m for a height of 1
-    float bias = 0;   ///< m
+    float scale = 1;   ///< m for a height of 1
+    float bias = 0;    ///< m
+    int texcoord = 0;  ///< set of texture coordinates
 };
 
 struct RefineOptions {
@@ -57,10 +59,14 @@ inline constexpr uint64_t kMostRefinedTriangles = uint64_t{1} << 27;
 /// Morph targets  the shape at weight 1, refined, less the shape at rest: exact for subdivision,
 ///              which is linear. Displacement follows the normals of each shape.
 /// Creases and corners  have done their work and are left out, and so are lightmap_uvs.
+/// Displacement  by `options.displacement`, or else by the heights that a mesh names itself
+///              (Primitive::displacement): such a mesh is refined flat, whatever the scheme, for
+///              that is the surface its heights stand on. They are read from the scene's folder.
 ///
 /// Primitives keep their numbers; those without triangles stay as they are.
 /// Errors  bad_argument   level outside 1..finest_level(), limit or quads with a scheme that has
 ///                        none, more than kMostRefinedTriangles (how many)
+///         those of read_height_map()
 ///         out_of_memory, cancelled
 /// Repeat  same bits for any number of threads.
 Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,

@@ -18,7 +18,8 @@ struct BuiltinScene {
 std::vector<BuiltinScene> builtin_scenes();
 
 /// Makes one: cornell-box, furnace, cube-tc58, corridor, living-room; moving in a loop of a few
-/// seconds: walker, marbles, toys, forest, scatter; of a size: stress:N, cad:N.
+/// seconds: walker, marbles, toys, forest, scatter; of a size: stress:N, cad:N,
+/// sculpture:N.
 /// Errors  bad_argument (no such scene; names those there are; or N not in 12..20 000 000).
 /// Repeat  same scene, bit for bit, every time.
 Result<Scene> builtin_scene(std::string_view name);

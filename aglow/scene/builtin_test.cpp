@@ -132,7 +132,7 @@ TEST_CASE("the built-in scenes are those of the command line, and each can be ma
     for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
     CHECK(names == std::vector<std::string>{"cornell-box", "furnace", "cube-tc58", "corridor",
                                             "living-room", "walker", "marbles", "toys", "forest",
-                                            "scatter", "stress:N", "cad:N"});
+                                            "scatter", "stress:N", "cad:N", "sculpture:N"});
     for (const std::string& name : names)
         if (!name.ends_with(":N")) CHECK(make(name).name == name);
 }

@@ -4,6 +4,7 @@
 #include "aglow/core/math.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,7 @@ struct Material {
     TextureRef metallic_roughness_texture;  ///< metallic in blue, roughness in green
     vec3 emission = {0, 0, 0};    ///< luminance, cd/m^2: emissiveFactor * emissive strength
     TextureRef emissive_texture;  ///< sRGB-coded, multiplies `emission`
+    TextureRef normal_texture;    ///< written, not loaded: no light depends on it
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -84,6 +86,14 @@ struct SharpVertex {
     bool operator==(const SharpVertex&) const = default;
 };
 
+/// Where the heights of a displaced surface are: docs/formats/displacement.md.
+struct DisplacementRef {
+    std::filesystem::path file;  ///< of the image, below the folder of the glTF file
+    int texcoord = 0;
+    float scale = 1, bias = 0;  ///< m; height = bias + scale * red
+    bool operator==(const DisplacementRef&) const = default;
+};
+
 /// No real surface reflects more; light would not die out. Surfaces clamp their diffuse reflectance
 /// to it, and loaders warn of it.
 inline constexpr float kMaxReflectance = 0.98f;
@@ -107,6 +117,9 @@ struct Primitive {
     std::vector<float> sharpness, tension, bias;
     std::vector<SharpEdge> creases;    ///< tagged in the file: docs/formats/creases.md
     std::vector<SharpVertex> corners;  ///< likewise
+    std::optional<DisplacementRef> displacement;
+    /// [vertex_count] for Material::normal_texture, as glTF has them; written, not loaded
+    std::vector<vec4> tangents;
 
     /// Vertex of the glTF primitive that each vertex is a copy of; unwrapping and flat shading
     /// split vertices. Empty: vertex i is the file's vertex i.

@@ -44,6 +44,18 @@ int wrap_code(Wrap wrap) {
     return 33071;
 }
 
+/// A file name as a URI: what is not allowed there by its bytes.
+std::string percent_coded(const std::string& name) {
+    std::string uri;
+    for (const char c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' || c == '~';
+        uri += plain ? std::string(1, c)
+                     : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<uint8_t>(c)));
+    }
+    return uri;
+}
+
 /// Collects the binary chunk and the JSON that describes it.
 class GlbWriter {
 public:
@@ -147,6 +159,9 @@ private:
         attributes["POSITION"] = add_positions(primitive.positions);
         if (!primitive.normals.empty())
             attributes["NORMAL"] = add_accessor<vec3>(primitive.normals, "VEC3", kFloat, kVertices);
+        if (!primitive.tangents.empty())
+            attributes["TANGENT"] =
+                add_accessor<vec4>(primitive.tangents, "VEC4", kFloat, kVertices);
         for (size_t set = 0; set < primitive.texcoords.size(); ++set)
             attributes[fmt::format("TEXCOORD_{}", set)] =
                 add_accessor<vec2>(primitive.texcoords[set], "VEC2", kFloat, kVertices);
@@ -170,6 +185,11 @@ private:
         for (const MorphTarget& target : primitive.targets)
             out["targets"].push_back(json_of(target, primitive.positions.size()));
         add_sharp_tags(primitive, out);
+        if (const auto& d = primitive.displacement)
+            out["extras"]["displacement"] = {{"uri", percent_coded(d->file.filename().string())},
+                                             {"texCoord", d->texcoord},
+                                             {"scale", d->scale},
+                                             {"bias", d->bias}};
         return out;
     }
 
@@ -287,6 +307,7 @@ private:
                {"roughnessFactor", material.roughness}};
         put_texture(pbr, "baseColorTexture", material.base_color_texture);
         put_texture(pbr, "metallicRoughnessTexture", material.metallic_roughness_texture);
+        put_texture(out, "normalTexture", material.normal_texture);
         put_texture(out, "emissiveTexture", material.emissive_texture);
         const vec3 e = material.emission;
         const float strength = std::max({e.x, e.y, e.z, 1.0f});  // factors may not exceed 1

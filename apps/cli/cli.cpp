@@ -17,9 +17,9 @@ namespace aglow::cli {
 namespace {
 
 std::vector<Command> commands() {
-    return {bake_command(),    render_command(),  refine_command(),
-            measure_command(), compare_command(), validate_command(),
-            bench_command(),   scene_command(),   info_command()};
+    return {bake_command(),    render_command(),  refine_command(),   simplify_command(),
+            measure_command(), compare_command(), validate_command(), bench_command(),
+            scene_command(),   info_command()};
 }
 
 int exit_code(Errc code) {
@@ -110,7 +110,7 @@ int dispatch(const std::vector<std::string>& words, const Interrupt& interrupt) 
             return run_command(command, {words.begin() + 1, words.end()}, interrupt);
     std::vector<std::string> names;
     for (const Command& command : commands()) names.push_back(command.name);
-    return report("aglow", no_such_choice(words[0], names, {"simplify", "view", "web"}).value());
+    return report("aglow", no_such_choice(words[0], names, {"view", "web"}).value());
 }
 
 }  // namespace

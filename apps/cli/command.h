@@ -44,6 +44,7 @@ Command measure_command();
 Command refine_command();
 Command render_command();
 Command scene_command();
+Command simplify_command();
 Command validate_command();
 
 }  // namespace aglow::cli

@@ -17,8 +17,8 @@ class CommandLine(harness.AglowTest):
 
     def test_every_command_explains_itself(self):
         overview = self.run_aglow("--help").stdout
-        for command in ("bake", "render", "refine", "measure", "compare", "validate", "bench",
-                        "scene", "info"):
+        for command in ("bake", "render", "refine", "simplify", "measure", "compare", "validate",
+                        "bench", "scene", "info"):
             self.assertIn(f"\n  {command} ", overview)
             text = self.run_aglow(command, "--help").stdout
             for shared in ("--device", "--threads", "--seed", "--json", "--quiet", "--verbose"):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "aglow/core/testing/scenes.h"
+#include "aglow/core/testing/scenes_folder.h"
 #include "aglow/mesh/surfaces.h"
 #include "aglow/scene/builtin.h"
 #include "aglow/scene/load.h"

@@ -89,7 +89,8 @@ public:
     Status build(const RefineOptions& options, const Shape& rest) {
         const Topology& topology = control_.topology;
         PatchOptions patch;
-        patch.shape = options.scheme == RefineScheme::phong ? PatchShape::phong : PatchShape::pn;
+        if (options.scheme == RefineScheme::phong) patch.shape = PatchShape::phong;
+        if (options.scheme == RefineScheme::flat) patch = {PatchShape::flat, NormalField::linear};
         AG_TRY(patches_, Patches::create(topology, patch));
         const std::vector<uint32_t> groups =
             corner_groups(topology, [&](uint32_t h, uint32_t other) {

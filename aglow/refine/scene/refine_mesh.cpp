@@ -37,7 +37,7 @@ float tag_at(const std::vector<float>& values, uint32_t vertex) {
 
 bool is_patch(RefineScheme scheme) {
     return scheme == RefineScheme::pn || scheme == RefineScheme::tagged ||
-           scheme == RefineScheme::phong;
+           scheme == RefineScheme::phong || scheme == RefineScheme::flat;
 }
 
 class MeshRefiner {
@@ -131,15 +131,17 @@ private:
     Result<RefinedShape> placed(const Shape& shape) const {
         RefinedShape refined;
         AG_CHECK(surface_->place(shape, refined));
-        if (options_.displacement && columns_.sets > 0)
-            displace(*surface_, *options_.displacement, first_texcoords(), refined);
+        const auto& displacement = options_.displacement;
+        if (displacement && static_cast<size_t>(displacement->texcoord) < columns_.sets)
+            displace(*surface_, *displacement, texcoords(displacement->texcoord), refined);
         return refined;
     }
 
-    std::vector<vec2> first_texcoords() const {
+    std::vector<vec2> texcoords(int set) const {
         std::vector<vec2> uvs;
         for (const uint32_t v : surface_->seams) {
-            const float* row = attributes_.data() + v * columns_.width();
+            const float* row =
+                attributes_.data() + v * columns_.width() + 2 * static_cast<size_t>(set);
             uvs.push_back({row[0], row[1]});
         }
         return uvs;

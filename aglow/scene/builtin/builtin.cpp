@@ -34,6 +34,8 @@ constexpr Entry kEntries[] = {
     {"stress:N", "room full of bumpy spheres, N triangles in all", nullptr, builtin::stress},
     {"cad:N", "machine of densely packed parts, large and small, N triangles in all", nullptr,
      builtin::cad},
+    {"sculpture:N", "closed organic shape under a sun, rough down to its finest triangles, about N",
+     nullptr, builtin::sculpture},
 };
 
 /// The family's name with its colon where `name` is of that family, else nothing.

@@ -23,5 +23,7 @@ inline constexpr int64_t kMinTriangles = 12, kMaxTriangles = 20'000'000;
 Scene stress(int64_t triangle_count);
 /// At most `triangle_count` triangles, and more than `triangle_count` - 12.
 Scene cad(int64_t triangle_count);
+/// 8 n^2 triangles, the most that do not exceed `triangle_count`, but at least 8.
+Scene sculpture(int64_t triangle_count);
 
 }  // namespace aglow::builtin

@@ -2,6 +2,7 @@
 #include "aglow/scene/gltf/meshes.h"
 
 #include "aglow/scene/gltf/attributes.h"
+#include "aglow/scene/gltf/displacement_tag.h"
 #include "aglow/scene/gltf/sharp_tags.h"
 #include "aglow/scene/gltf/triangles.h"
 
@@ -177,6 +178,7 @@ Status read_vertices(const Reader& reader, const Json& json, AttributeReader& at
     AG_CHECK(read_influences(json, attributes, primitive));
     AG_CHECK(read_scalar_tags(reader, json, attributes, primitive));
     read_sharp_tags(json, primitive, reader.warnings);
+    read_displacement_tag(json, primitive, reader.warnings);
     return read_targets(reader, json, primitive);
 }
 

@@ -132,6 +132,13 @@ void release_all(Document& document, const Json& attributes) {
     for (const Json& accessor : attributes) release_accessor(document, accessor.get<int>());
 }
 
+/// The normals of what a displacement adds are those of the displaced mesh itself.
+void drop_normal_map(Document& document, const Json& json) {
+    const int material = integer(json, "material");
+    if (material >= 0)
+        document.json.at("materials").at(static_cast<size_t>(material)).erase("normalTexture");
+}
+
 /// What names vertices or triangles that are gone.
 void drop_what_named_vertices(Document& document, Json& json) {
     if (const Json* draco = find_extension(json, kDraco)) {
@@ -143,6 +150,7 @@ void drop_what_named_vertices(Document& document, Json& json) {
     Json& extras = json.at("extras");
     extras.erase("creases");
     extras.erase("corners");
+    if (extras.erase("displacement") > 0) drop_normal_map(document, json);
     if (extras.empty()) json.erase("extras");
 }
 
