@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/refine/refine_scene.h"
 
+#include "aglow/core/testing/scenes.h"
 #include "aglow/mesh/surfaces.h"
 #include "aglow/scene/load.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -88,11 +88,6 @@ size_t open_edges(const Surfaces& surfaces) {
         }
     return static_cast<size_t>(
         std::ranges::count_if(uses, [](const auto& use) { return use.second % 2 != 0; }));
-}
-
-fs::path scenes_folder() {
-    if (const char* folder = std::getenv("AGLOW_SCENES")) return folder;
-    return fs::path(AGLOW_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
 const std::array kSchemes = {RefineScheme::loop, RefineScheme::catmull_clark, RefineScheme::pn,
@@ -273,10 +268,7 @@ TEST_CASE("work ends when it is cancelled") {
 TEST_CASE("skinned models: refined then posed is close to posed then refined, and closed") {
     for (const char* name : {"CesiumMan/CesiumMan.glb", "Fox/Fox.glb"}) {
         const fs::path path = scenes_folder() / "khronos" / name;
-        if (!fs::exists(path)) {
-            MESSAGE("no " << path.string() << "; skipped");
-            continue;
-        }
+        if (!is_here(path)) return;
         CAPTURE(name);
         const auto scene = load_scene(path);
         REQUIRE(scene);
