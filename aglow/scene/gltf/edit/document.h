@@ -69,8 +69,8 @@ std::vector<int> views_of(const Json& accessor);
 void release_accessor(Document& document, int accessor);
 void release_view(Document& document, int view);
 
-/// Empties slots that were left free and not taken again: what they hold is no longer theirs. Those
-/// at the end of their lists go.
+/// Empties the slots that are free: what they hold belongs to others. Those at the end of their
+/// lists go.
 void sweep_free_slots(Document& document);
 
 /// Keeps extensionsUsed (and extensionsRequired) true.
