@@ -131,8 +131,9 @@ TEST_CASE("the built-in scenes are those of the command line, and each can be ma
     std::vector<std::string> names;
     for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
     CHECK(names == std::vector<std::string>{"cornell-box", "furnace", "cube-tc58", "corridor",
-                                            "living-room", "walker", "marbles", "toys", "forest",
-                                            "scatter", "stress:N", "cad:N", "sculpture:N"});
+                                            "living-room", "chess", "walker", "marbles", "toys",
+                                            "forest", "scatter", "stress:N", "cad:N",
+                                            "sculpture:N"});
     for (const std::string& name : names)
         if (!name.ends_with(":N")) CHECK(make(name).name == name);
 }
@@ -285,6 +286,46 @@ TEST_CASE("stress scenes have as many triangles as a closed mesh can without exc
     }
 }
 
+TEST_CASE("chess pieces are closed, stand on the board and keep within their squares") {
+    const Scene scene = make("chess");
+    const std::vector<mat4> transforms = world_transforms(scene);
+    std::set<std::pair<float, float>> squares;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        if (!node.name.starts_with("white") && !node.name.starts_with("black")) continue;
+        CAPTURE(node.name);
+        const std::vector<Triangle> piece =
+            triangles_of(scene.meshes[static_cast<size_t>(node.mesh)]);
+        CHECK(is_watertight(piece));
+        CHECK(signed_volume(piece) > 0);
+        Box box;
+        for (const Triangle& t : piece)
+            for (const vec3 p : {t.a, t.b, t.c}) box.add(transform_point(transforms[i], p));
+        CHECK(box.lo.y == 0);
+        CHECK(box.hi.y < 0.1f);
+        const vec3 middle = (box.lo + box.hi) * 0.5f;
+        CHECK(std::max(std::abs(middle.x), std::abs(middle.z)) < 0.22f);
+        CHECK(std::max(box.hi.x - box.lo.x, box.hi.z - box.lo.z) < 0.055f);
+        CHECK(squares.emplace(std::round(middle.x * 1000), std::round(middle.z * 1000)).second);
+    }
+    CHECK(squares.size() == 19);
+}
+
+TEST_CASE("a chess piece has as many triangles as its profile says, and no vertex twice") {
+    // Rings of 16, each but the first and last with two triangles to a side; the king's cross has 2
+    // boxes.
+    for (const auto& [piece, triangles] : {std::pair{ChessPiece::pawn, 288},
+                                           {ChessPiece::bishop, 352},
+                                           {ChessPiece::queen, 352},
+                                           {ChessPiece::king, 344}}) {
+        const CoarseShape shape = chess_piece(piece);
+        CHECK(shape.triangles.size() == static_cast<size_t>(triangles));
+        std::set<std::tuple<float, float, float>> places;
+        for (const vec3 p : shape.positions) places.emplace(p.x, p.y, p.z);
+        CHECK(places.size() == shape.positions.size());
+    }
+}
+
 TEST_CASE("the living room is as large as promised and closed where it must be") {
     const Scene scene = make("living-room");
     const std::vector<Triangle> all = triangles_of(scene);
@@ -351,8 +392,8 @@ TEST_CASE("the living room's sun comes from the south-south-west, 33 degrees hig
 
 TEST_CASE("normals are unit vectors on the front side of their triangles") {
     for (const char* name :
-         {"cornell-box", "furnace", "cube-tc58", "corridor", "living-room", "walker", "marbles",
-          "toys", "forest", "scatter", "stress:5000", "cad:5000"}) {
+         {"cornell-box", "furnace", "cube-tc58", "corridor", "living-room", "chess", "walker",
+          "marbles", "toys", "forest", "scatter", "stress:5000", "cad:5000"}) {
         const std::string scene_name = name;
         CAPTURE(scene_name);
         const Scene scene = make(name);
@@ -399,8 +440,8 @@ TEST_CASE("scenes have a camera, materials with names, and reflect less than the
 }
 
 TEST_CASE("a scene is the same bytes every time") {
-    for (const char* name :
-         {"cornell-box", "living-room", "walker", "marbles", "forest", "stress:3000", "cad:3000"}) {
+    for (const char* name : {"cornell-box", "living-room", "chess", "walker", "marbles", "forest",
+                             "stress:3000", "cad:3000"}) {
         const auto first = to_glb(make(name)), second = to_glb(make(name));
         REQUIRE(first);
         REQUIRE(second);

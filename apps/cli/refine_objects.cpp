@@ -2,6 +2,7 @@
 #include "refine_objects.h"
 
 #include "aglow/core/file.h"
+#include "aglow/scene/builtin.h"
 #include "report.h"
 
 #include <fmt/format.h>
@@ -9,8 +10,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <span>
 #include <tuple>
 
 namespace aglow::cli {
@@ -54,28 +53,6 @@ private:
     std::map<std::tuple<long, long, long>, uint32_t> vertices_;
 };
 
-/// A circle of a surface of revolution; every other of its vertices is raised by `crest`.
-struct Circle {
-    float radius = 0, height = 0, crest = 0;
-};
-
-constexpr int kSides = 16;
-
-vec3 on_circle(const Circle& circle, int side) {
-    const double angle = 2 * std::numbers::pi * (side % kSides) / kSides;
-    const float lift = side % 2 == 0 ? circle.crest : 0.0f;
-    return {circle.radius * static_cast<float>(std::cos(angle)),
-            circle.radius * static_cast<float>(std::sin(angle)), circle.height + lift};
-}
-
-/// From the bottom to the top; both ends have radius 0.
-void add_revolution(Welder& mesh, std::span<const Circle> profile) {
-    for (size_t i = 0; i + 1 < profile.size(); ++i)
-        for (int side = 0; side < kSides; ++side)
-            mesh.add_quad(on_circle(profile[i], side), on_circle(profile[i], side + 1),
-                          on_circle(profile[i + 1], side + 1), on_circle(profile[i + 1], side));
-}
-
 void add_box(Welder& mesh, vec3 low, vec3 high) {
     const auto corner = [&](int i) {
         return vec3{(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
@@ -90,39 +67,11 @@ void add_box(Welder& mesh, vec3 low, vec3 high) {
         mesh.add_quad(corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3]));
 }
 
-/// The foot that all pieces share, up to the collar below the head.
-std::vector<Circle> foot(float collar) {
-    return {{0, 0},        {0.9f, 0},       {0.95f, 0.15f},        {0.7f, 0.4f},
-            {0.45f, 0.7f}, {0.33f, collar}, {0.55f, collar + 0.1f}};
-}
-
-Result<CoarseObject> chess_piece(const std::string& name) {
+Result<CoarseObject> chess_object(ChessPiece piece) {
+    const CoarseShape shape = chess_piece(piece);
     Welder mesh;
-    std::vector<Circle> profile;
-    const auto add = [&](std::initializer_list<Circle> head) {
-        profile.insert(profile.end(), head);
-    };
-    if (name == "pawn") {
-        profile = foot(1.4f);
-        add({{0.35f, 1.55f}, {0.5f, 1.85f}, {0.35f, 2.2f}, {0, 2.3f}});
-    } else if (name == "bishop") {
-        profile = foot(1.8f);
-        add({{0.32f, 1.98f}, {0.5f, 2.3f}, {0.35f, 2.75f}, {0.1f, 3.0f}, {0.14f, 3.1f}, {0, 3.2f}});
-    } else if (name == "queen") {
-        profile = foot(2.1f);
-        add({{0.36f, 2.3f},
-             {0.62f, 3.1f, 0.2f},
-             {0.45f, 3.05f},
-             {0.12f, 3.2f},
-             {0.15f, 3.32f},
-             {0, 3.4f}});
-    } else {
-        profile = foot(2.2f);
-        add({{0.36f, 2.4f}, {0.55f, 3.1f}, {0.5f, 3.25f}, {0.12f, 3.35f}, {0, 3.4f}});
-        add_box(mesh, {-0.06f, -0.06f, 3.35f}, {0.06f, 0.06f, 3.9f});
-        add_box(mesh, {-0.2f, -0.05f, 3.6f}, {0.2f, 0.05f, 3.72f});
-    }
-    add_revolution(mesh, profile);
+    for (const uvec3 t : shape.triangles)
+        mesh.add_triangle(shape.positions[t.x], shape.positions[t.y], shape.positions[t.z]);
     return mesh.object();
 }
 
@@ -218,8 +167,10 @@ Result<CoarseObject> coarse_object(const std::string& name, const std::string& t
         add_box(mesh, {-1, -1, -1}, {1, 1, 1});
         return mesh.object();
     }
-    if (name == "pawn" || name == "bishop" || name == "queen" || name == "king")
-        return chess_piece(name);
+    if (name == "pawn") return chess_object(ChessPiece::pawn);
+    if (name == "bishop") return chess_object(ChessPiece::bishop);
+    if (name == "queen") return chess_object(ChessPiece::queen);
+    if (name == "king") return chess_object(ChessPiece::king);
     return fail(Errc::bad_argument,
                 fmt::format("there is no object \"{}\"; there are pawn, bishop, queen, king, cube, "
                             "and with --teaset FILE teapot, spoon, cup",

@@ -25,6 +25,7 @@ constexpr Entry kEntries[] = {
      builtin::cube_tc58},
     {"corridor", "closed U-shaped corridor lit at one end", builtin::corridor},
     {"living-room", "furnished room with windows, sun and lamps", builtin::living_room},
+    {"chess", "an endgame on a board: few, coarse pieces to refine", builtin::chess},
     {"walker", "mannequin that walks in place: a skinned mesh", builtin::walker},
     {"marbles", "marbles that roll and knock together in a tray: rigid motion", builtin::marbles},
     {"toys", "train, sailing boat and duck on a table: rigid motion and morphs", builtin::toys},

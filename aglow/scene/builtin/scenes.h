@@ -11,6 +11,7 @@ Scene furnace();
 Scene cube_tc58();
 Scene corridor();
 Scene living_room();
+Scene chess();
 Scene walker();
 Scene marbles();
 Scene toys();
