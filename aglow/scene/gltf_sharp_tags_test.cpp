@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/gltf/sharp_tags.h"
+#include "aglow/scene/gltf/test_files.h"
 #include "aglow/scene/gltf/triangles.h"
 
 #include <doctest/doctest.h>
 
 using namespace aglow;
+using namespace aglow::gltf_test;
 
 namespace {
 
-struct Tagged {
-    Primitive primitive;
-    std::vector<std::string> warnings;
-};
-
 /// Four vertices and two triangles with `extras`.
-Tagged read(const std::string& extras) {
-    Tagged tagged;
-    tagged.primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-    tagged.primitive.triangles = {{0, 1, 2}, {2, 1, 3}};
-    const auto document = gltf::JsonDocument::parse(R"({"extras": )" + extras + "}");
-    REQUIRE(document.has_value());
-    gltf::read_sharp_tags(document->root().named("mesh 2 primitive 1"), tagged.primitive,
-                          tagged.warnings);
-    return tagged;
+ExtrasRead read(const std::string& extras) {
+    Primitive primitive;
+    primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    primitive.triangles = {{0, 1, 2}, {2, 1, 3}};
+    return read_extras(gltf::read_sharp_tags, extras, std::move(primitive));
 }
 
 }  // namespace
 
 TEST_CASE("creases and corners of extras are read; without a sharpness they stay for ever") {
-    const Tagged tagged =
+    const ExtrasRead tagged =
         read(R"({"creases": [[0, 1, 2.5], [3.0, 2]], "corners": [[1], [2, 0], [3, 1e300]]})");
     CHECK(tagged.warnings.empty());
     CHECK(tagged.primitive.creases == std::vector<SharpEdge>{{0, 1, 2.5f}, {3, 2, 10}});
@@ -40,7 +33,7 @@ TEST_CASE("creases and corners of extras are read; without a sharpness they stay
 
 TEST_CASE("extras of other programs are not touched") {
     for (const char* extras : {"null", "[1, 2]", "\"creases\"", "{}", R"({"crease": [[0, 1]]})"}) {
-        const Tagged tagged = read(extras);
+        const ExtrasRead tagged = read(extras);
         CHECK(tagged.warnings.empty());
         CHECK(tagged.primitive.creases.empty());
     }
@@ -51,7 +44,7 @@ TEST_CASE(
     for (const char* entry : {"[0]", "[0, 1, 2, 3]", "[0, 4]", "[0, -1]", "[0, 0.5]", "[0, 1, -1]",
                               "[0, \"1\"]", "7", "{\"a\": 0}", "[0, 1e99]", "[]", "null"}) {
         CAPTURE(entry);
-        const Tagged tagged =
+        const ExtrasRead tagged =
             read(std::string(R"({"creases": [[1, 2, 3], )") + entry + ", " + entry + "]}");
         CHECK(tagged.primitive.creases == std::vector<SharpEdge>{{1, 2, 3}});
         REQUIRE(tagged.warnings.size() == 2);

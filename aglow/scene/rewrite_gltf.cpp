@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/scene/rewrite_gltf.h"
 
+#include "aglow/scene/gltf/edit/guard.h"
 #include "aglow/scene/gltf/edit/replace_meshes.h"
 #include "aglow/scene/gltf/edit/scene_files.h"
-
-#include <fmt/format.h>
-
-#include <new>
 
 namespace aglow {
 namespace {
@@ -28,18 +25,8 @@ Result<RewrittenFiles> rewrite(const Scene& scene, const fs::path& path) {
 
 }  // namespace
 
-Result<RewrittenFiles> rewrite_gltf(const Scene& scene, const fs::path& path) try {
-    return rewrite(scene, path);
-} catch (const std::bad_alloc&) {
-    return fail(Errc::out_of_memory, "no memory to write the scene", path.string());
-} catch (const nlohmann::json::exception& error) {
-    return fail(Errc::malformed, fmt::format("the source's JSON is not glTF: {}", error.what()),
-                scene.name);
-} catch (const fs::filesystem_error& error) {
-    return fail(Errc::unreadable, error.what(), path.string());
-} catch (const std::exception& error) {
-    return fail(Errc::malformed, fmt::format("the source cannot be edited: {}", error.what()),
-                scene.name);
+Result<RewrittenFiles> rewrite_gltf(const Scene& scene, const fs::path& path) {
+    return gltf::edit::guarded(scene, path, [&] { return rewrite(scene, path); });
 }
 
 }  // namespace aglow

@@ -5,14 +5,10 @@
 #include "aglow/encode/gltf/light_coding.h"
 #include "aglow/encode/gltf/unlit_picture.h"
 #include "aglow/encode/lit_gltf.h"
+#include "aglow/scene/gltf/edit/guard.h"
 #include "aglow/scene/gltf/edit/pack.h"
 #include "aglow/scene/gltf/edit/scene_files.h"
 #include "aglow/scene/image_file.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <new>
 
 namespace aglow {
 namespace {
@@ -122,20 +118,12 @@ Result<LitFiles> write(const Scene& scene, const Surfaces& surfaces, const Atlas
 
 Result<LitFiles> write_lit_gltf(const Scene& scene, const Surfaces& surfaces, const Atlas& atlas,
                                 const Texels& texels, const Lightmap& lightmap,
-                                const fs::path& path, const LitOptions& options) try {
+                                const fs::path& path, const LitOptions& options) {
     AG_ASSERT(lightmap.irradiance.width == atlas.width, "the lightmap is the atlas's");
     AG_ASSERT(lightmap.irradiance.height == atlas.height, "the lightmap is the atlas's");
-    return write(scene, surfaces, atlas, texels, lightmap, path, options);
-} catch (const std::bad_alloc&) {
-    return fail(Errc::out_of_memory, "no memory to write the lit scene", path.string());
-} catch (const nlohmann::json::exception& error) {
-    return fail(Errc::malformed, fmt::format("the source's JSON is not glTF: {}", error.what()),
-                scene.name);
-} catch (const fs::filesystem_error& error) {
-    return fail(Errc::unreadable, error.what(), path.string());
-} catch (const std::exception& error) {
-    return fail(Errc::malformed, fmt::format("the source cannot be edited: {}", error.what()),
-                scene.name);
+    return encode::guarded(scene, path, [&] {
+        return write(scene, surfaces, atlas, texels, lightmap, path, options);
+    });
 }
 
 }  // namespace aglow

@@ -32,6 +32,8 @@ struct Shape {
 /// Joins the corners of loose triangles into a shape: corners at one place share a normal unless
 /// their faces meet at more than `crease_degrees`; triangles without area vanish.
 Shape soup_to_shape(Shape soup, float crease_degrees);
+/// Normals of the triangles round each vertex, weighted by area.
+void set_smooth_normals(Shape& shape);
 
 /// Quadrilateral a b c d, counter-clockwise seen from the front; UV (0, 1) at a, (1, 1) at b,
 /// (1, 0) at c, (0, 0) at d: an image stands upright where a b is the lower edge.

@@ -84,16 +84,6 @@ vec3 sculpted(vec3 direction) {
     return vec3{c * p.x + s * p.z, p.y, c * p.z - s * p.x} * (kHeight / 2);
 }
 
-void set_smooth_normals(Shape& shape) {
-    shape.normals.assign(shape.positions.size(), {0, 0, 0});
-    for (const uvec3 t : shape.triangles) {
-        const auto& p = shape.positions;
-        const vec3 n = cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
-        for (const uint32_t vertex : {t.x, t.y, t.z}) shape.normals[vertex] += n;
-    }
-    for (vec3& n : shape.normals) n = normalize(n);
-}
-
 }  // namespace
 
 Scene sculpture(int64_t triangle_count) {

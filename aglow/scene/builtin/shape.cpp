@@ -84,6 +84,15 @@ Shape soup_to_shape(Shape soup, float crease_degrees) {
     return shape;
 }
 
+void set_smooth_normals(Shape& shape) {
+    shape.normals.assign(shape.positions.size(), {0, 0, 0});
+    for (const uvec3 t : shape.triangles) {
+        const vec3 n = area_normal(shape.positions, t);
+        for (const uint32_t vertex : {t.x, t.y, t.z}) shape.normals[vertex] += n;
+    }
+    for (vec3& n : shape.normals) n = normalize(n);
+}
+
 void Shape::append(const Shape& other) {
     const auto first = static_cast<uint32_t>(positions.size());
     positions.insert(positions.end(), other.positions.begin(), other.positions.end());

@@ -68,16 +68,6 @@ void split_triangles(Shape& shape, int64_t missing) {
     }
 }
 
-void set_smooth_normals(Shape& shape) {
-    shape.normals.assign(shape.positions.size(), {0, 0, 0});
-    for (const uvec3 t : shape.triangles) {
-        const auto& p = shape.positions;
-        const vec3 n = cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
-        for (const uint32_t vertex : {t.x, t.y, t.z}) shape.normals[vertex] += n;
-    }
-    for (vec3& n : shape.normals) n = normalize(n);
-}
-
 /// Closed bumpy sphere of exactly `triangle_count` triangles, an even number of at least 4.
 Shape bumpy_sphere(int64_t triangle_count) {
     // Slices = 2 * rings makes the triangles near square: 4 * rings^2 of them.

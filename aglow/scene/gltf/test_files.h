@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes small glTF files for tests.
 #pragma once
+#include "aglow/scene/gltf/json.h"
 #include "aglow/scene/load.h"
 
 #include <cstdint>
@@ -96,6 +97,21 @@ inline constexpr const char* kTriangleMesh =
 inline Bytes triangle_file(const std::string& more = "", const std::string& mesh = kTriangleMesh) {
     const std::string members = std::string(kTriangleBuffers) + ", " + mesh + more;
     return glb(document(members), triangle_bytes());
+}
+
+/// A primitive, and what reading its extras warned of.
+struct ExtrasRead {
+    Primitive primitive;
+    std::vector<std::string> warnings;
+};
+
+/// What `read(json, primitive, warnings)` makes of a primitive's JSON that has these extras.
+template <class Read>
+ExtrasRead read_extras(const Read& read, const std::string& extras, Primitive primitive) {
+    ExtrasRead result{std::move(primitive), {}};
+    const auto document = gltf::JsonDocument::parse(R"({"extras": )" + extras + "}");
+    read(document.value().root().named("mesh 2 primitive 1"), result.primitive, result.warnings);
+    return result;
 }
 
 }  // namespace aglow::gltf_test
