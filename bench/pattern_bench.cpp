@@ -6,6 +6,7 @@
 #include "aglow/core/parallel.h"
 #include "aglow/refine/gpu/device_patches.h"
 #include "aglow/refine/patches.h"
+#include "aglow/refine/testing/control_meshes.h"
 #include "aglow/vk/device.h"
 
 #include <emmintrin.h>
@@ -74,21 +75,12 @@ Result<CoarseMesh> torus(uint32_t columns, uint32_t rows) {
     return mesh;
 }
 
-/// A cube of edge 2: 12 triangles whose normals lead away from its centre.
+/// Twelve triangles whose normals lead away from their centre.
 Result<CoarseMesh> cube() {
-    PolygonList polygons;
-    CoarseMesh mesh;
-    for (uint32_t v = 0; v < 8; ++v)
-        mesh.positions.push_back(
-            {v & 1 ? 1.0f : -1.0f, v & 2 ? 1.0f : -1.0f, v & 4 ? 1.0f : -1.0f});
-    polygons.corners = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    for (uint32_t end = 3; end <= 36; end += 3) polygons.face_begin.push_back(end);
-    polygons.vertex_count = 8;
-    AG_TRY(TopologyResult made, build_topology(polygons));
-    mesh.topology = std::move(made.topology);
-    for (const uint32_t v : mesh.topology.vertex)
-        mesh.normals.push_back(normalize(mesh.positions[v]));
+    const refine::testing::CoarseMesh shape = refine::testing::cube_of_triangles();
+    AG_TRY(TopologyResult made, build_topology(shape.polygons));
+    CoarseMesh mesh{std::move(made.topology), shape.positions, {}};
+    mesh.normals = refine::testing::normals_from_origin(mesh.topology, mesh.positions);
     return mesh;
 }
 

@@ -9,18 +9,6 @@
 #include "aglow/refine/testing/control_meshes.h"
 #include "aglow/refine/testing/open_subdiv.h"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wextra"
-#include <opensubdiv/far/stencilTable.h>
-#include <opensubdiv/far/stencilTableFactory.h>
-#include <opensubdiv/osd/bufferDescriptor.h>
-#include <opensubdiv/osd/cpuEvaluator.h>
-#pragma GCC diagnostic pop
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,17 +43,7 @@ double seconds(const Work& work) {
     return least;
 }
 
-struct Point {
-    float x = 0, y = 0, z = 0;
-    // NOLINTBEGIN(readability-identifier-naming): the names that OpenSubdiv calls.
-    void Clear() { x = y = z = 0; }
-    void AddWithWeight(const Point& p, float w) {
-        x += w * p.x;
-        y += w * p.y;
-        z += w * p.z;
-    }
-    // NOLINTEND(readability-identifier-naming)
-};
+using Point = BasicOsdPoint<float>;
 
 CoarseMesh torus_of_quads(uint32_t n) {
     CoarseMesh mesh{"torus", {}, {}, {}, {}};

@@ -40,12 +40,9 @@ TopologyResult build_faces(const std::vector<Corners>& faces,
     return build(polygons(faces), creases);
 }
 
-/// Quads over a sheet of columns x rows, whose opposite sides may be one.
-PolygonList quad_sheet(uint32_t columns, uint32_t rows, bool closed_x, bool closed_y) {
-    const uint32_t width = closed_x ? columns : columns + 1;
-    const auto vertex = [&](uint32_t x, uint32_t y) {
-        return (closed_y ? y % rows : y) * width + (closed_x ? x % columns : x);
-    };
+/// columns x rows quads between the vertices that vertex(x, y) names.
+template <class Vertex>
+PolygonList quad_grid(uint32_t columns, uint32_t rows, const Vertex& vertex) {
     std::vector<Corners> faces;
     for (uint32_t y = 0; y < rows; ++y)
         for (uint32_t x = 0; x < columns; ++x)
@@ -54,17 +51,19 @@ PolygonList quad_sheet(uint32_t columns, uint32_t rows, bool closed_x, bool clos
     return polygons(faces);
 }
 
+/// Quads over a sheet of columns x rows, whose opposite sides may be one.
+PolygonList quad_sheet(uint32_t columns, uint32_t rows, bool closed_x, bool closed_y) {
+    const uint32_t width = closed_x ? columns : columns + 1;
+    return quad_grid(columns, rows, [=](uint32_t x, uint32_t y) {
+        return (closed_y ? y % rows : y) * width + (closed_x ? x % columns : x);
+    });
+}
+
 /// Triangles and quads round a globe.
 PolygonList globe(uint32_t columns, uint32_t rows) {
-    const auto vertex = [&](uint32_t x, uint32_t y) {
+    return quad_grid(columns, rows, [=](uint32_t x, uint32_t y) {
         return y == 0 ? 0 : y == rows ? 1 : 2 + (y - 1) * columns + x % columns;
-    };
-    std::vector<Corners> faces;
-    for (uint32_t y = 0; y < rows; ++y)
-        for (uint32_t x = 0; x < columns; ++x)
-            faces.push_back(
-                {vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)});
-    return polygons(faces);
+    });
 }
 
 uint32_t edge_between(const Topology& t, uint32_t a, uint32_t b) {

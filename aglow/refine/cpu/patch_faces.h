@@ -15,33 +15,31 @@ inline shared::EdgePoints points_along(const Topology& topology, const PatchCont
     return {e.second, e.first};
 }
 
-inline shared::PatchPoints triangle_points(const Topology& topology, const PatchControl& control,
-                                           uint32_t f) {
-    shared::PatchPoints c;
+/// The corners of a face, then the points of its edges: PatchPoints of 3, or QuadPoints of 4.
+template <uint32_t kCorners, class Points>
+Points outline_points(const Topology& topology, const PatchControl& control, uint32_t f) {
+    Points c;
     const uint32_t first = topology.face_begin[f];
-    for (uint32_t i = 0; i < 3; ++i) {
-        const uint32_t end = topology.vertex[first + (i + 1) % 3];
+    for (uint32_t i = 0; i < kCorners; ++i) {
+        const uint32_t end = topology.vertex[first + (i + 1) % kCorners];
         const shared::EdgePoints e = points_along(topology, control, first + i, end);
         c.p[i] = control.positions[topology.vertex[first + i]];
-        c.p[3 + 2 * i] = e.first;
-        c.p[4 + 2 * i] = e.second;
+        c.p[kCorners + 2 * i] = e.first;
+        c.p[kCorners + 2 * i + 1] = e.second;
     }
+    return c;
+}
+
+inline shared::PatchPoints triangle_points(const Topology& topology, const PatchControl& control,
+                                           uint32_t f) {
+    auto c = outline_points<3, shared::PatchPoints>(topology, control, f);
     c.p[9] = control.centers[f];
     return c;
 }
 
 inline shared::QuadPoints quad_points(const Topology& topology, const PatchControl& control,
                                       uint32_t f) {
-    shared::QuadPoints c;
-    const uint32_t first = topology.face_begin[f];
-    for (uint32_t i = 0; i < 4; ++i) {
-        const uint32_t end = topology.vertex[first + (i + 1) % 4];
-        const shared::EdgePoints e = points_along(topology, control, first + i, end);
-        c.p[i] = control.positions[topology.vertex[first + i]];
-        c.p[4 + 2 * i] = e.first;
-        c.p[5 + 2 * i] = e.second;
-    }
-    return c;
+    return outline_points<4, shared::QuadPoints>(topology, control, f);
 }
 
 /// The normals of a face: Normals is PatchNormals or QuadNormals.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/refine/gpu/device_patches.h"
 
+#include "aglow/refine/testing/control_meshes.h"
 #include "aglow/refine/testing/patch_meshes.h"
 #include "aglow/vk/testing/primitives.h"
 
@@ -199,28 +200,13 @@ TEST_CASE("displaced patches on the device lie where those of the host do, witho
     }
 }
 
-/// A cube of edge 2 around the origin: 12 triangles, normals from its centre.
-PatchMesh cube() {
-    PatchMesh mesh;
-    PolygonList polygons;
-    for (uint32_t v = 0; v < 8; ++v)
-        mesh.positions.push_back(
-            {v & 1 ? 1.0f : -1.0f, v & 2 ? 1.0f : -1.0f, v & 4 ? 1.0f : -1.0f});
-    polygons.corners = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                        2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    for (uint32_t end = 3; end <= 36; end += 3) polygons.face_begin.push_back(end);
-    polygons.vertex_count = 8;
-    mesh.topology = topology_of(polygons);
-    for (const uint32_t v : mesh.topology.vertex)
-        mesh.normals.push_back(normalize(mesh.positions[v]));
-    return mesh;
-}
-
 TEST_CASE("twelve coarse triangles become 786 432 that a sine displaces") {
     vk::TestDevice device;
     if (!device) return;
     vk::TestStream test(device);
-    const PatchMesh mesh = cube();
+    const CoarseMesh cube = cube_of_triangles();
+    PatchMesh mesh{topology_of(cube), cube.positions, {}, {}, {}};
+    mesh.normals = normals_from_origin(mesh.topology, mesh.positions);
     DisplacementMap displacement;
     displacement.settings.kind = shared::kSineDisplacement;
     displacement.settings.amplitude = 0.05f;

@@ -77,6 +77,19 @@ struct Bench {
     vk::Stream stream;
 };
 
+/// The device refines the mesh's positions as the CPU does.
+void check_points(Bench& bench, const Case& c, const Subdivision& cpu,
+                  const DeviceSubdivision& gpu) {
+    std::vector<vec3> expected(cpu.vertex_count());
+    demand(cpu.evaluate(c.mesh.positions, expected));
+    const vk::Buffer control = bench.upload(std::span<const vec3>(c.mesh.positions));
+    const vk::Buffer refined = bench.unwritten(expected.size() * 3);
+    bench.stream.barrier();
+    gpu.record(bench.stream, control.address(), refined.address());
+    const auto points = demand(bench.stream.download<vec3>(refined, expected.size()));
+    CHECK(largest_difference(points, expected) < kBound * size_of(c.mesh.positions));
+}
+
 }  // namespace
 
 TEST_CASE("refined points are the CPU's, in both schemes, at every level, whatever the valence") {
@@ -88,15 +101,8 @@ TEST_CASE("refined points are the CPU's, in both schemes, at every level, whatev
         CAPTURE(c.options.level);
         CAPTURE(int(c.options.scheme));
         const Subdivision cpu = subdivision_of(c);
-        std::vector<vec3> expected(cpu.vertex_count());
-        demand(cpu.evaluate(c.mesh.positions, expected));
         const DeviceSubdivision gpu = demand(DeviceSubdivision::create(bench.stream, cpu));
-        const vk::Buffer control = bench.upload(std::span<const vec3>(c.mesh.positions));
-        const vk::Buffer refined = bench.unwritten(expected.size() * 3);
-        bench.stream.barrier();
-        gpu.record(bench.stream, control.address(), refined.address());
-        const auto points = demand(bench.stream.download<vec3>(refined, expected.size()));
-        CHECK(largest_difference(points, expected) < kBound * size_of(c.mesh.positions));
+        check_points(bench, c, cpu, gpu);
     }
 }
 
@@ -107,16 +113,9 @@ TEST_CASE("deep levels come in steps, twelve triangles become 786 432") {
     const Case c{triangulated(cube("cube", {})), {.level = 8}};
     const Subdivision cpu = subdivision_of(c);
     CHECK(cpu.face_count() == 786'432);
-    std::vector<vec3> expected(cpu.vertex_count());
-    demand(cpu.evaluate(c.mesh.positions, expected));
     const DeviceSubdivision gpu = demand(DeviceSubdivision::create(bench.stream, cpu));
     CHECK(gpu.has_steps());
-    const vk::Buffer control = bench.upload(std::span<const vec3>(c.mesh.positions));
-    const vk::Buffer refined = bench.unwritten(expected.size() * 3);
-    bench.stream.barrier();
-    gpu.record(bench.stream, control.address(), refined.address());
-    const auto points = demand(bench.stream.download<vec3>(refined, expected.size()));
-    CHECK(largest_difference(points, expected) < kBound * size_of(c.mesh.positions));
+    check_points(bench, c, cpu, gpu);
 }
 
 TEST_CASE("attributes of any width are refined like positions") {

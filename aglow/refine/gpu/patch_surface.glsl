@@ -43,26 +43,24 @@ vec3 inner_position(PatchMesh mesh, uint index, uint corners, vec2 at) {
     return quad_position(quad_points(mesh, index), at.x, at.y);
 }
 
+// Of a face with these vectors at its corners and edges; a triangle has the first six of them.
+vec3 normal_within(QuadNormals c, uint corners, vec2 at) {
+    if (corners != 3u) return quad_normal(c, at.x, at.y);
+    PatchNormals triangle;
+    for (int i = 0; i < 6; ++i) triangle.n[i] = c.n[i];
+    return patch_normal(triangle, 1.0f - at.x - at.y, at.x, at.y);
+}
+
 vec3 inner_normal(PatchMesh mesh, uint index, uint corners, vec2 at) {
-    if (corners == 3u) {
-        PatchNormals c;
-        for (int i = 0; i < 6; ++i) c.n[i] = mesh.patches.at[index].n[i];
-        return patch_normal(c, 1.0f - at.x - at.y, at.x, at.y);
-    }
     QuadNormals c;
     for (int i = 0; i < 8; ++i) c.n[i] = mesh.patches.at[index].n[i];
-    return quad_normal(c, at.x, at.y);
+    return normal_within(c, corners, at);
 }
 
 vec3 inner_direction(PatchMesh mesh, uint index, uint corners, vec2 at) {
-    if (corners == 3u) {
-        PatchNormals c;
-        for (int i = 0; i < 6; ++i) c.n[i] = mesh.patch_directions.at[index].n[i];
-        return patch_normal(c, 1.0f - at.x - at.y, at.x, at.y);
-    }
     QuadNormals c;
     for (int i = 0; i < 8; ++i) c.n[i] = mesh.patch_directions.at[index].n[i];
-    return quad_normal(c, at.x, at.y);
+    return normal_within(c, corners, at);
 }
 
 float height_of_level(PatchMesh mesh, TextureLevels map, vec2 uv, uint level) {

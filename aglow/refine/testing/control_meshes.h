@@ -85,6 +85,21 @@ inline CoarseMesh cube(std::string name, std::vector<Crease> creases) {
     return mesh;
 }
 
+/// A cube of edge 2 around the origin: 12 triangles.
+inline CoarseMesh cube_of_triangles() {
+    CoarseMesh mesh = triangulated(cube("cube of triangles", {}));
+    for (vec3& p : mesh.positions) p = p * 2.0f - vec3{1, 1, 1};
+    return mesh;
+}
+
+/// [half-edge] unit vectors away from the origin.
+inline std::vector<vec3> normals_from_origin(const Topology& topology,
+                                             const std::vector<vec3>& positions) {
+    std::vector<vec3> normals;
+    for (const uint32_t v : topology.vertex) normals.push_back(normalize(positions[v]));
+    return normals;
+}
+
 /// Two points over and under a ring of `n`: valence n and 4.
 inline CoarseMesh bipyramid(uint32_t n) {
     CoarseMesh mesh{"bipyramid " + std::to_string(n), {}, {}, {}, {}};

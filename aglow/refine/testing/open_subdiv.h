@@ -2,19 +2,7 @@
 #pragma once
 #include "aglow/mesh/topology.h"
 #include "aglow/refine/subdivision.h"
-
-// It leaves parameters unused in many inline functions.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wextra"
-#include <opensubdiv/far/primvarRefiner.h>
-#include <opensubdiv/far/topologyDescriptor.h>
-#include <opensubdiv/far/topologyRefiner.h>
-#include <opensubdiv/far/topologyRefinerFactory.h>
-#pragma GCC diagnostic pop
+#include "aglow/refine/testing/open_subdiv_headers.h"
 
 #include <initializer_list>
 #include <memory>
@@ -27,18 +15,21 @@ namespace aglow::refine::testing {
 
 namespace osd = OpenSubdiv;
 
-/// A point as OpenSubdiv wants it; in double precision, since tangents are small differences.
-struct OsdPoint {
-    double x = 0, y = 0, z = 0;
+/// A point as OpenSubdiv wants it.
+template <class Real>
+struct BasicOsdPoint {
+    Real x = 0, y = 0, z = 0;
     // NOLINTBEGIN(readability-identifier-naming): the names that OpenSubdiv calls.
     void Clear() { x = y = z = 0; }
-    void AddWithWeight(const OsdPoint& p, double w) {
+    void AddWithWeight(const BasicOsdPoint& p, Real w) {
         x += w * p.x;
         y += w * p.y;
         z += w * p.z;
     }
     // NOLINTEND(readability-identifier-naming)
 };
+/// In double precision, since tangents are small differences.
+using OsdPoint = BasicOsdPoint<double>;
 
 inline std::unique_ptr<osd::Far::TopologyRefiner> make_refiner(const Topology& mesh, Scheme scheme,
                                                                Corners corners) {
