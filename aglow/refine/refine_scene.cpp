@@ -27,6 +27,8 @@ Status check_options(const RefineOptions& options) {
         return fail(Errc::bad_argument,
                     "Loop subdivision is for triangles: leave quads out, or "
                     "take catmull-clark");
+    if (options.displacement && options.field)
+        return fail(Errc::bad_argument, "a surface is displaced by a map or by a function");
     return {};
 }
 
@@ -71,7 +73,7 @@ Result<std::optional<HeightDisplacement>> own_heights(const Scene& scene, const 
 /// surface that they stand on.
 Result<Mesh> refined_mesh(const Scene& scene, const Mesh& mesh, const RefineOptions& options,
                           std::vector<std::string>& warnings) {
-    if (options.displacement) return refine::refine_mesh(mesh, options, warnings);
+    if (options.displacement || options.field) return refine::refine_mesh(mesh, options, warnings);
     AG_TRY(std::optional<HeightDisplacement> heights, own_heights(scene, mesh));
     if (!heights) return refine::refine_mesh(mesh, options, warnings);
     RefineOptions flat;

@@ -37,6 +37,9 @@ struct RefineOptions {
     Corners corners = Corners::sharp;
     ControlOptions control = {};
     std::optional<HeightDisplacement> displacement;
+    /// Heights that are a function of place in the mesh's own space, at rest: sine or noise, in
+    /// place of a map.
+    std::optional<shared::Displacement> field;
 };
 
 /// The finest level that refine_scene() makes of a scheme.
@@ -58,14 +61,18 @@ inline constexpr uint64_t kMostRefinedTriangles = uint64_t{1} << 27;
 ///              (8 where the mesh has more than 4 for each vertex) are kept, their sum 1.
 /// Morph targets  the shape at weight 1, refined, less the shape at rest: exact for subdivision,
 ///              which is linear. Displacement follows the normals of each shape.
-/// Creases and corners  have done their work and are left out, and so are lightmap_uvs.
-/// Displacement  by `options.displacement`, or else by the heights that a mesh names itself
-///              (Primitive::displacement): such a mesh is refined flat, whatever the scheme, for
-///              that is the surface its heights stand on. They are read from the scene's folder.
+/// Creases and corners  lose 1 of their sharpness with each level, those that are sharp for ever
+///              nothing. A mesh with tags keeps what is left, of the sharp edges that the options
+///              make too; others have none. lightmap_uvs are left out.
+/// Displacement  by `options.displacement` or `options.field`, or else by the heights that a mesh
+///              names itself (Primitive::displacement): such a mesh is refined flat, whatever the
+///              scheme, for that is the surface its heights stand on. They are read from the
+///              scene's folder.
 ///
 /// Primitives keep their numbers; those without triangles stay as they are.
 /// Errors  bad_argument   level outside 1..finest_level(), limit or quads with a scheme that has
-///                        none, more than kMostRefinedTriangles (how many)
+///                        none, both kinds of displacement, more than kMostRefinedTriangles (how
+///                        many)
 ///         those of read_height_map()
 ///         out_of_memory, cancelled
 /// Repeat  same bits for any number of threads.

@@ -227,6 +227,104 @@ TEST_CASE("a height map that differs across seams does not open them") {
     }
 }
 
+TEST_CASE("a sine of place moves a plane as the sine says, and noise as the field says") {
+    const vec3 wave{3, 0, -5};
+    shared::Displacement sine{};
+    sine.kind = shared::kSineDisplacement;
+    sine.amplitude = 0.05f;
+    sine.frequency = wave;
+    shared::Displacement noise{};
+    noise.kind = shared::kNoiseDisplacement;
+    noise.amplitude = 0.1f;
+    noise.frequency = {2, 2, 2};
+    noise.octaves = 4;
+    noise.lacunarity = 2;
+    noise.gain = 0.5f;
+    Scene plane = cube();
+    plane.meshes[0].primitives.erase(plane.meshes[0].primitives.begin());  // the top alone: y = 1
+    for (const RefineScheme scheme : kSchemes) {
+        RefineOptions options;
+        options.scheme = scheme;
+        options.level = 5;
+        options.field = sine;
+        const Scene waves = refined(plane, options);
+        for (const vec3 p : waves.meshes[0].primitives[0].positions)
+            CHECK(double(p.y) ==
+                  doctest::Approx(1 + 0.05 * std::sin(double(dot(wave, {p.x, 1, p.z})))));
+        options.field = noise;
+        const Scene rough = refined(plane, options);
+        for (const vec3 p : rough.meshes[0].primitives[0].positions) {
+            const float height = shared::fbm(vec3{p.x, 1, p.z} * 2, 4, 2, 0.5f, 0).value;
+            CHECK(p.y == doctest::Approx(1 + 0.1f * height).epsilon(1e-5));
+        }
+        CHECK(open_edges(pose(refined(cube(), options))) == 0);
+    }
+}
+
+TEST_CASE("a sine's normals are those of its slope") {
+    Scene plane = cube();
+    plane.meshes[0].primitives.erase(plane.meshes[0].primitives.begin());
+    RefineOptions options;
+    options.level = 7;
+    options.field = shared::Displacement{};
+    options.field->kind = shared::kSineDisplacement;
+    options.field->amplitude = 0.1f;
+    options.field->frequency = {4, 0, 0};
+    const Scene fine = refined(plane, options);
+    const Primitive& top = fine.meshes[0].primitives[0];
+    for (size_t v = 0; v < top.positions.size(); ++v) {
+        const vec3 p = top.positions[v];
+        if (std::max(std::fabs(p.x), std::fabs(p.z)) > 0.99f) continue;  // one-sided at the rim
+        const vec3 expected = normalize(vec3{-0.4f * std::cos(4 * p.x), 1, 0});
+        CHECK(length(top.normals[v] - expected) < 2e-3f);
+    }
+}
+
+TEST_CASE("what is left of a crease goes on: levels one by one are levels at once") {
+    Scene scene = cube();
+    // Four edges of the top for ever, one of the bottom for a level and a half, a corner for 2.5.
+    scene.meshes[0].primitives[1].creases = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    scene.meshes[0].primitives[0].creases = {{8, 9, 1.5f}};
+    scene.meshes[0].primitives[0].corners = {{10, 2.5f}};
+    for (const RefineScheme scheme : {RefineScheme::loop, RefineScheme::catmull_clark}) {
+        const Scene once = refined(scene, scheme, 1);
+        size_t creases = 0, corners = 0;
+        for (const Primitive& p : once.meshes[0].primitives) {
+            creases += p.creases.size();
+            corners += p.corners.size();
+            for (const SharpEdge& crease : p.creases)
+                CHECK((crease.sharpness == kSharp || crease.sharpness == 0.5f));
+            for (const SharpVertex& corner : p.corners) CHECK(corner.sharpness == 1.5f);
+        }
+        CHECK(creases == 2 * 5);
+        CHECK(corners == 1);
+        if (scheme == RefineScheme::catmull_clark) continue;  // its quads are triangles again
+        const Scene twice = refined(once, scheme, 1), at_once = refined(scene, scheme, 2);
+        const auto places = [](const Scene& of) {
+            std::vector<Point> all;
+            for (const vec3 p : pose(of).positions) all.push_back(point(p));
+            return all;
+        };
+        const std::vector<Point> all = places(at_once);
+        for (const Point& a : places(twice)) {
+            float nearest = 1;
+            for (const Point& b : all)
+                nearest = std::min(nearest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+            CHECK(nearest < 1e-6f);
+        }
+    }
+}
+
+TEST_CASE("a mesh without tags gets none, whatever the options keep sharp") {
+    RefineOptions options;
+    options.control.crease_angle = 0.5f;
+    const Scene fine = refined(cube(), options);
+    for (const Primitive& p : fine.meshes[0].primitives) {
+        CHECK(p.creases.empty());
+        CHECK(p.corners.empty());
+    }
+}
+
 TEST_CASE("what makes no sense is refused with what to do") {
     const Scene scene = cube();
     const auto says = [&](const RefineOptions& options) {
@@ -245,6 +343,10 @@ TEST_CASE("what makes no sense is refused with what to do") {
     options = {};
     options.control.quads = true;
     CHECK(says(options).find("catmull-clark") != std::string::npos);
+    options = {};
+    options.displacement.emplace();
+    options.field.emplace();
+    CHECK(says(options).find("map or by a function") != std::string::npos);
     Scene large = scene;
     large.meshes.resize(20, scene.meshes[0]);
     options = {};

@@ -19,9 +19,9 @@ struct RewrittenFiles {
 /// and extras too, but for the vertices and triangles of primitives that have triangles: these are
 /// the scene's, as plain accessors. KHR_draco_mesh_compression, EXT_meshopt_compression and
 /// KHR_mesh_quantization go where nothing uses them any more, and so do attributes of a primitive
-/// that a Scene does not hold (tangents, which readers make anew; others with a warning) and the
-/// creases and corners in its extras; a displacement there has been done, so that it goes too, with
-/// the normal map of its material.
+/// that a Scene does not hold (tangents, which readers make anew; others with a warning). Creases
+/// and corners in its extras are the scene's; a displacement there has been done, so that it goes,
+/// with the normal map of its material.
 /// A scene without source is written as write_glb() does.
 ///
 /// Shapes  meshes, and primitives of each, as many as the source has

@@ -9,9 +9,17 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace aglow::cli {
 namespace {
+
+constexpr uint32_t kNoiseOctaves = 5;
+
+/// A height map, or a function of place.
+using DisplaceOption = std::variant<std::filesystem::path, shared::Displacement>;
 
 struct Options {
     std::filesystem::path input, output;
@@ -22,9 +30,40 @@ struct Options {
     bool creases_at_normals = false;
     bool quads = false;
     bool round_corners = false;
-    std::filesystem::path displace;
+    DisplaceOption displace;
     std::optional<double> displace_scale, displace_bias;
 };
+
+/// "sin:0.1,0,20,0": the amplitude and a wave vector.
+Result<DisplaceOption> parse_sine(const std::string& numbers) {
+    AG_TRY(const std::vector<double> n, parse_numbers(numbers, 4));
+    shared::Displacement field{};
+    field.kind = shared::kSineDisplacement;
+    field.amplitude = static_cast<float>(n[0]);
+    field.frequency = {static_cast<float>(n[1]), static_cast<float>(n[2]),
+                       static_cast<float>(n[3])};
+    return field;
+}
+
+/// "noise:0.1,5": the amplitude of the coarsest octave and its cells to a metre.
+Result<DisplaceOption> parse_noise(const std::string& numbers) {
+    AG_TRY(const std::vector<double> n, parse_numbers(numbers, 2));
+    const auto frequency = static_cast<float>(n[1]);
+    shared::Displacement field{};
+    field.kind = shared::kNoiseDisplacement;
+    field.amplitude = static_cast<float>(n[0]);
+    field.frequency = {frequency, frequency, frequency};
+    field.octaves = kNoiseOctaves;
+    field.lacunarity = 2;
+    field.gain = 0.5f;
+    return field;
+}
+
+Result<DisplaceOption> parse_displace(const std::string& text) {
+    if (text.starts_with("sin:")) return parse_sine(text.substr(4));
+    if (text.starts_with("noise:")) return parse_noise(text.substr(6));
+    return std::filesystem::path(text);
+}
 
 Table table(Options& o) {
     return {
@@ -48,8 +87,9 @@ Table table(Options& o) {
         {"--quads", flag(&o.quads), "", "join pairs of triangles to quads first; not with loop"},
         {"--round-corners", flag(&o.round_corners), "",
          "subdivision: round the corners of open meshes too"},
-        {"--displace", file(&o.displace), "FILE",
-         "height map over TEXCOORD_0: .png (16 bit: 0..1), .exr or .hdr"},
+        {"--displace", parsed(&o.displace, parse_displace), "HEIGHTS",
+         "height map over TEXCOORD_0: .png (16 bit: 0..1), .exr or .hdr; or by place, "
+         "sin:A,FX,FY,FZ or noise:A,F"},
         {"--displace-scale", number(&o.displace_scale, -kNoBound), "METRES",
          "how far a height of 1 moves the surface (default 1)"},
         {"--displace-bias", number(&o.displace_bias, -kNoBound), "METRES",
@@ -57,8 +97,13 @@ Table table(Options& o) {
     };
 }
 
+bool has_map(const Options& o) {
+    const auto* map = std::get_if<std::filesystem::path>(&o.displace);
+    return map && !map->empty();
+}
+
 Status check(const Options& o) {
-    if (o.displace.empty() && (o.displace_scale || o.displace_bias))
+    if (!has_map(o) && (o.displace_scale || o.displace_bias))
         return fail(Errc::bad_argument,
                     "--displace-scale and --displace-bias go with --displace FILE");
     return check_output(o.output, {".glb", ".gltf"}, o.input);
@@ -73,8 +118,9 @@ Result<RefineOptions> refine_options(const Options& o) {
     if (o.crease) options.control.crease_angle = static_cast<float>(*o.crease) * (kPi / 180);
     options.control.crease_at_normals = o.creases_at_normals;
     options.control.quads = o.quads;
-    if (o.displace.empty()) return options;
-    AG_TRY(HeightMap map, read_height_map(o.displace));
+    if (const auto* field = std::get_if<shared::Displacement>(&o.displace)) options.field = *field;
+    if (!has_map(o)) return options;
+    AG_TRY(HeightMap map, read_height_map(std::get<std::filesystem::path>(o.displace)));
     options.displacement = {std::move(map), static_cast<float>(o.displace_scale.value_or(1)),
                             static_cast<float>(o.displace_bias.value_or(0))};
     return options;

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`aglow refine`: what it writes, what it keeps, and what it says when it cannot."""
 import json
+import math
 import os
 import pathlib
 import struct
@@ -102,7 +103,11 @@ class Refinement(harness.AglowTest):
         written, _ = document_of(self.dir / "rich.glb")
         for key in ("extras", "materials", "cameras", "nodes", "extensionsUsed"):
             self.assertEqual(written[key], document[key])
-        self.assertEqual(written["meshes"][0]["primitives"][0]["extras"], {"note": "floor"})
+        extras = written["meshes"][0]["primitives"][0]["extras"]
+        self.assertEqual(extras["note"], "floor")
+        # The edge of eight segments stays sharp for ever.
+        self.assertEqual([s for _, _, s in extras["creases"]], [10.0] * 8)
+        self.assertEqual(len({v for a, b, _ in extras["creases"] for v in (a, b)}), 9)
 
     def test_displacement_moves_by_scale_times_height_plus_bias(self):
         document = json.loads((self.dir / "plane.gltf").read_text())
@@ -121,6 +126,23 @@ class Refinement(harness.AglowTest):
         self.assertAlmostEqual(bounds["low"][1], 0.375, places=5)
         self.assertAlmostEqual(bounds["high"][1], 0.375, places=5)
 
+    def test_functions_of_place_displace(self):
+        self.run_aglow("refine", "plane.gltf", "-o", "waves.glb", "--level", "6",
+                       "--displace", "sin:0.5,1,0,0.5")
+        primitive, binary = document_of(self.dir / "waves.glb")
+        accessor = primitive["accessors"][
+            primitive["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+        start = primitive["bufferViews"][accessor["bufferView"]].get("byteOffset", 0)
+        for x, y, z in struct.iter_unpack("<3f", binary[start:start + 12 * accessor["count"]]):
+            self.assertAlmostEqual(y, 0.5 * math.sin(x + 0.5 * z), places=5)
+        self.run_aglow("refine", "plane.gltf", "-o", "rough.glb", "--level", "6",
+                       "--displace", "noise:0.25,0.7")
+        bounds = self.json_of("info", "rough.glb")["bounds"]
+        self.assertLess(bounds["low"][1], -0.05)
+        self.assertGreater(bounds["low"][1], -0.5)
+        self.assertGreater(bounds["high"][1], 0.05)
+        self.assertLess(bounds["high"][1], 0.5)
+
     def test_errors_say_what_to_do_and_leave_no_file(self):
         refine = ("refine", "plane.gltf", "-o", "none.glb")
         crowd(self.dir / "crowd.gltf", self.dir / "plane.gltf")
@@ -133,6 +155,9 @@ class Refinement(harness.AglowTest):
             ((*refine, "--quads"), 1, "catmull-clark"),
             ((*refine, "--scheme", "pn", "--limit"), 1, "limit"),
             ((*refine, "--displace-scale", "2"), 1, "--displace"),
+            ((*refine, "--displace", "sin:1,2,3"), 1, "--displace"),
+            ((*refine, "--displace", "noise:1,x"), 1, "--displace"),
+            ((*refine, "--displace", "noise:1,2", "--displace-scale", "2"), 1, "--displace FILE"),
             ((*refine, "--crease", "200"), 1, "--crease"),
             ((*refine, "--displace", "absent.png"), 2, "absent.png"),
             (("refine", "absent.glb", "-o", "none.glb"), 2, "absent.glb"),

@@ -57,26 +57,31 @@ std::vector<vec3> group_normals(const RefinedSurface& surface, std::span<const v
 
 }  // namespace
 
-void displace(const RefinedSurface& surface, const HeightDisplacement& displacement,
-              std::span<const vec2> uvs, RefinedShape& shape) {
-    const uint32_t places = 1 + *std::ranges::max_element(surface.whole);
+std::vector<float> map_heights(const RefinedSurface& surface,
+                               const HeightDisplacement& displacement, std::span<const vec2> uvs) {
     const float level = level_of(surface, displacement.map, uvs);
+    const uint32_t places = 1 + *std::ranges::max_element(surface.whole);
+    std::vector<float> sums(places, 0.0f), counts(places, 0.0f);
+    for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
+        sums[surface.whole[v]] += sample(displacement.map, uvs[v], level);
+        ++counts[surface.whole[v]];
+    }
+    std::vector<float> heights;
+    for (const uint32_t place : surface.whole)
+        heights.push_back(displacement.scale * (sums[place] / counts[place]) + displacement.bias);
+    return heights;
+}
+
+void displace(const RefinedSurface& surface, std::span<const float> heights, RefinedShape& shape) {
+    const uint32_t places = 1 + *std::ranges::max_element(surface.whole);
     std::vector<vec3> directions(places, vec3{0, 0, 0});
-    std::vector<float> heights(places, 0.0f), counts(places, 0.0f);
-    for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
-        const uint32_t place = surface.whole[v];
-        directions[place] = directions[place] + shape.normals[v];
-        heights[place] += sample(displacement.map, uvs[v], level);
-        ++counts[place];
-    }
+    for (uint32_t v = 0; v < surface.vertex_count(); ++v)
+        directions[surface.whole[v]] = directions[surface.whole[v]] + shape.normals[v];
     const std::vector<uint32_t> group = normal_groups(surface, shape);
-    for (uint32_t v = 0; v < surface.vertex_count(); ++v) {
-        const uint32_t place = surface.whole[v];
-        const float height =
-            displacement.scale * (heights[place] / counts[place]) + displacement.bias;
+    for (uint32_t v = 0; v < surface.vertex_count(); ++v)
         shape.positions[v] =
-            shape.positions[v] + shared::unit_or(directions[place], vec3{0, 0, 0}) * height;
-    }
+            shape.positions[v] +
+            shared::unit_or(directions[surface.whole[v]], vec3{0, 0, 0}) * heights[v];
     const std::vector<vec3> normals = group_normals(surface, shape.positions, group);
     for (uint32_t v = 0; v < surface.vertex_count(); ++v)
         shape.normals[v] = shared::unit_or(normals[group[v]], shape.normals[v]);

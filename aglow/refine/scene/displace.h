@@ -4,12 +4,16 @@
 
 namespace aglow::refine {
 
-/// Moves a refined surface along its normals by a height map. Vertices on one place move alike,
-/// along the mean of their normals by the mean of their heights, so that nothing opens. Normals
-/// become those of the triangles there, weighted by angle, and part where they did before.
-/// Texels of the map are taken as coarse as the vertices are apart.
-/// Shapes  uvs [refined vertex]
-void displace(const RefinedSurface& surface, const HeightDisplacement& displacement,
-              std::span<const vec2> uvs, RefinedShape& shape);
+/// Heights of a map, the mean of all vertices on one place, so that nothing opens. Texels are taken
+/// as coarse as the vertices are apart.
+/// Shapes  uvs [refined vertex], result [refined vertex]
+std::vector<float> map_heights(const RefinedSurface& surface,
+                               const HeightDisplacement& displacement, std::span<const vec2> uvs);
+
+/// Moves a refined surface by heights that are alike on one place, along the mean of the normals
+/// there. Normals become those of the triangles there, weighted by angle, and part where they did
+/// before.
+/// Shapes  heights [refined vertex]
+void displace(const RefinedSurface& surface, std::span<const float> heights, RefinedShape& shape);
 
 }  // namespace aglow::refine

@@ -96,15 +96,15 @@ public:
             corner_groups(topology, [&](uint32_t h, uint32_t other) {
                 return dot(rest.corner_normals[h], rest.corner_normals[other]) > kSameNormal;
             });
-        AG_TRY(cut_topology_, cut_by(topology, control_.seams.vertex, groups));
+        AG_TRY(cut, cut_by(topology, control_.seams.vertex, groups));
         const int segments = 1 << options.level;
-        AG_TRY(cut_, Tessellation::uniform(cut_topology_, segments));
+        AG_TRY(order, Tessellation::uniform(cut, segments));
         AG_TRY(whole_, Tessellation::uniform(topology, segments));
         AG_TRY(seams_, Tessellation::uniform(control_.seams, segments));
-        whole = refined_sources(cut_topology_, cut_, topology, whole_);
-        seams = refined_sources(cut_topology_, cut_, control_.seams, seams_);
-        triangles = std::move(cut_.triangles);
-        face_triangle = std::move(cut_.face_triangle);
+        whole = refined_sources(cut, order, topology, whole_);
+        seams = refined_sources(cut, order, control_.seams, seams_);
+        triangles = std::move(order.triangles);
+        face_triangle = std::move(order.face_triangle);
         return {};
     }
 
@@ -113,8 +113,8 @@ public:
         patches_->update({shape.positions, shape.corner_normals, tags_}, control);
         refined.positions.resize(vertex_count());
         refined.normals.resize(vertex_count());
-        patches_->evaluate(control, cut_, refined.positions);
-        patches_->evaluate_normals(control, cut_, refined.normals);
+        patches_->evaluate(control, order, refined.positions);
+        patches_->evaluate_normals(control, order, refined.normals);
         return {};
     }
 
@@ -122,10 +122,10 @@ public:
                        std::vector<float>& refined) const override {
         const bool is_whole = layer == Layer::whole;
         const Topology& topology = is_whole ? control_.topology : control_.seams;
-        const Tessellation& order = is_whole ? whole_ : seams_;
+        const Tessellation& layer_order = is_whole ? whole_ : seams_;
         const auto columns = static_cast<size_t>(width);
-        refined.resize(order.vertex_count() * columns);
-        LinearAttributes(topology, order).evaluate(control, columns, refined);
+        refined.resize(layer_order.vertex_count() * columns);
+        LinearAttributes(topology, layer_order).evaluate(control, columns, refined);
         return {};
     }
 
@@ -133,8 +133,7 @@ private:
     const ControlMesh& control_;
     std::vector<shared::ShapeTags> tags_;
     std::optional<Patches> patches_;
-    Topology cut_topology_;
-    Tessellation cut_, whole_, seams_;
+    Tessellation whole_, seams_;
 };
 
 }  // namespace

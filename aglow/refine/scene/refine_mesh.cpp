@@ -52,7 +52,9 @@ public:
         AG_TRY(surface_, make_surface());
         AG_CHECK(refine_attributes());
         AG_TRY(skin_, refine_skin(mesh_, control_, *surface_));
-        AG_TRY(rest_, placed(rest_shape()));
+        AG_CHECK(surface_->place(rest_shape(), rest_));
+        heights_ = heights();
+        if (!heights_.empty()) displace(*surface_, heights_, rest_);
         AG_CHECK(refine_targets());
         return in_primitives();
     }
@@ -131,10 +133,21 @@ private:
     Result<RefinedShape> placed(const Shape& shape) const {
         RefinedShape refined;
         AG_CHECK(surface_->place(shape, refined));
-        const auto& displacement = options_.displacement;
-        if (displacement && static_cast<size_t>(displacement->texcoord) < columns_.sets)
-            displace(*surface_, *displacement, texcoords(displacement->texcoord), refined);
+        if (!heights_.empty()) displace(*surface_, heights_, refined);
         return refined;
+    }
+
+    /// By how much displacement moves each refined vertex, from where it is at rest; empty: none.
+    std::vector<float> heights() const {
+        std::vector<float> heights;
+        if (const auto& field = options_.field) {
+            for (const vec3 p : rest_.positions)
+                heights.push_back(shared::displacement_at(*field, p).value);
+        } else if (const auto& map = options_.displacement;
+                   map && static_cast<size_t>(map->texcoord) < columns_.sets) {
+            heights = map_heights(*surface_, *map, texcoords(map->texcoord));
+        }
+        return heights;
     }
 
     std::vector<vec2> texcoords(int set) const {
@@ -220,7 +233,40 @@ private:
             refined.primitives[p] = primitive(mesh_.primitives[p], vertices);
             refined.primitives[p].triangles = std::move(triangles[p]);
         }
+        add_sharp_tags(number, refined);
         return refined;
+    }
+
+    /// How sharp what was refined so often still is.
+    float sharpness_left(float sharpness) const {
+        return sharpness >= kSharp ? sharpness : sharpness - static_cast<float>(options_.level);
+    }
+
+    /// Of a mesh with tags: what is left of all that is sharp. `number` tells refined vertices as
+    /// their primitive has them.
+    void add_sharp_tags(std::span<const uint32_t> number, Mesh& refined) const {
+        const bool tagged = std::ranges::any_of(mesh_.primitives, [](const Primitive& p) {
+            return !p.creases.empty() || !p.corners.empty();
+        });
+        if (!tagged) return;
+        const Topology& topology = control_.topology;
+        const auto primitive_of = [&](uint32_t half) -> Primitive& {
+            return refined.primitives[control_.face_primitive[topology.face[half]]];
+        };
+        for (uint32_t e = 0; e < topology.edge_count(); ++e) {
+            const float left = sharpness_left(topology.edge_sharpness[e]);
+            if (!(left > 0)) continue;
+            const std::vector<uint32_t> chain = surface_->edge_vertices(topology.edge_half[e]);
+            for (size_t i = 0; i + 1 < chain.size(); ++i)
+                primitive_of(topology.edge_half[e])
+                    .creases.push_back({number[chain[i]], number[chain[i + 1]], left});
+        }
+        for (uint32_t v = 0; v < topology.vertex_count(); ++v) {
+            const float left = sharpness_left(topology.vertex_sharpness[v]);
+            const uint32_t half = topology.vertex_half[v];
+            if (left > 0 && half != kNone)
+                primitive_of(half).corners.push_back({number[surface_->cut.vertex[half]], left});
+        }
     }
 
     Primitive primitive(const Primitive& from, std::span<const uint32_t> vertices) const {
@@ -282,6 +328,7 @@ private:
     std::vector<float> attributes_;  // [refined vertex of the seams * columns_.width()]
     RefinedSkin skin_;
     RefinedShape rest_;
+    std::vector<float> heights_;
     std::vector<Target> targets_;
 };
 

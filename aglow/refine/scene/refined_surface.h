@@ -42,10 +42,14 @@ public:
                                std::vector<float>& refined) const = 0;
 
     uint32_t vertex_count() const { return static_cast<uint32_t>(whole.size()); }
+    /// Refined vertices along the edge of a half-edge, from one end to the other.
+    std::vector<uint32_t> edge_vertices(uint32_t half_edge) const;
 
-    std::vector<uint32_t> whole;                ///< [refined vertex] that of ControlMesh::topology
-    std::vector<uint32_t> seams;                ///< [refined vertex] that of ControlMesh::seams
-    std::vector<uvec3> triangles;               ///< face after face
+    Topology cut;                  ///< the control mesh cut open
+    Tessellation order;            ///< of the refined vertices over it, without triangles
+    std::vector<uint32_t> whole;   ///< [refined vertex] that of ControlMesh::topology
+    std::vector<uint32_t> seams;   ///< [refined vertex] that of ControlMesh::seams
+    std::vector<uvec3> triangles;  ///< face after face
     std::vector<uint32_t> face_triangle = {0};  ///< [face + 1]
 };
 

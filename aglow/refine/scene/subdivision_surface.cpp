@@ -74,13 +74,14 @@ public:
         const std::vector<uint32_t> groups = corner_groups(topology, [&](uint32_t h, uint32_t) {
             return topology.edge_sharpness[topology.edge[h]] < kSharp;
         });
-        AG_TRY(const Topology cut, cut_by(topology, control_.seams.vertex, groups));
-        const Tessellation cut_order = order_of(cut), whole_order = order_of(topology);
+        AG_TRY(cut, cut_by(topology, control_.seams.vertex, groups));
+        order = order_of(cut);
+        const Tessellation whole_order = order_of(topology);
         AG_ASSERT(whole_order.vertex_count() == whole_->vertex_count(), "the order of Subdivision");
-        whole = refined_sources(cut, cut_order, topology, whole_order);
-        seams = refined_sources(cut, cut_order, control_.seams, order_of(control_.seams));
-        AG_CHECK(build_creases(groups, cut, cut_order, whole_order));
-        number_faces(CutNumbers(cut, cut_order, topology, whole_order));
+        whole = refined_sources(cut, order, topology, whole_order);
+        seams = refined_sources(cut, order, control_.seams, order_of(control_.seams));
+        AG_CHECK(build_creases(groups, whole_order));
+        number_faces(CutNumbers(cut, order, topology, whole_order));
         return {};
     }
 
@@ -112,8 +113,7 @@ private:
 
     /// What gives the normals on both sides of creases: the mesh cut open there. Its boundaries
     /// follow the same curves as the creases, so that only normals are taken from it.
-    Status build_creases(std::span<const uint32_t> groups, const Topology& cut,
-                         const Tessellation& cut_order, const Tessellation& whole_order) {
+    Status build_creases(std::span<const uint32_t> groups, const Tessellation& whole_order) {
         const Topology& topology = topology_;
         if (std::ranges::none_of(topology.edge_sharpness, [](float s) { return s >= kSharp; }))
             return {};
@@ -126,7 +126,7 @@ private:
             ++copies[of];
         }
         AG_TRY(creases_, Subdivision::create(creased, subdivision_));
-        of_crease_ = refined_sources(cut, cut_order, creased, order_of(creased));
+        of_crease_ = refined_sources(cut, order, creased, order_of(creased));
         // A crease that ends inside the surface fades: there the surface has one normal.
         std::vector<bool> parted(whole_order.vertex_count(), false);
         for (uint32_t v = 0; v < topology.vertex_count(); ++v) parted[v] = copies[v] > 1;

@@ -154,6 +154,15 @@ void drop_what_named_vertices(Document& document, Json& json) {
     if (extras.empty()) json.erase("extras");
 }
 
+/// As docs/formats/creases.md has them.
+void add_sharp_tags(const Primitive& primitive, Json& json) {
+    if (json.contains("extras") && !json.at("extras").is_object()) return;
+    for (const SharpEdge& crease : primitive.creases)
+        json["extras"]["creases"].push_back(Json::array({crease.a, crease.b, crease.sharpness}));
+    for (const SharpVertex& corner : primitive.corners)
+        json["extras"]["corners"].push_back(Json::array({corner.vertex, corner.sharpness}));
+}
+
 bool has_alpha(const Document& document, const Json& attributes) {
     const int color = integer(attributes, "COLOR_0");
     return color < 0 ||
@@ -170,6 +179,7 @@ void replace(Document& document, Json& json, const Primitive& primitive,
     for (const Json& target : old_targets) release_all(document, target);
     release_accessor(document, integer(json, "indices"));
     drop_what_named_vertices(document, json);
+    add_sharp_tags(primitive, json);
     json["attributes"] = writer.attributes();
     json["indices"] = writer.indices();
     json.erase("mode");  // a triangle list is the default
