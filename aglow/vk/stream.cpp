@@ -22,7 +22,7 @@ Status Stream::State::reserve(Buffer& buffer, uint64_t bytes, std::string_view n
                               Memory memory) {
     if (recorder->failure()) return tl::unexpected(*recorder->failure());
     if (buffer.size() > 0) return {};
-    auto made = recorder->gpu()->make_buffer(bytes, name, memory);
+    auto made = gpu->make_buffer(bytes, name, memory);
     if (!made) {
         recorder->fail_with(made.error());
         return tl::unexpected(std::move(made).error());
@@ -68,12 +68,12 @@ Stream& Stream::operator=(Stream&&) noexcept = default;
 Stream::~Stream() = default;
 
 Result<Stream> Stream::create(const Gpu& gpu) {
-    auto state = std::make_unique<State>();
+    auto state = std::make_unique<State>(gpu);
     AG_TRY(state->recorder, Recorder::create(gpu));
     return Stream(std::move(state));
 }
 
-const Gpu& Stream::gpu() const { return state_->recorder->gpu(); }
+const Gpu& Stream::gpu() const { return state_->gpu; }
 
 Result<Buffer> Stream::make_buffer(uint64_t bytes, std::string_view name, Memory memory) {
     return gpu()->make_buffer(bytes, name, memory);

@@ -18,6 +18,9 @@ constexpr double kCopySeconds = static_cast<double>(kCopyUnit) / 1e9;  // 1 GB/s
 
 /// What a stream is behind its interface.
 struct Stream::State {
+    explicit State(Gpu device) : gpu(std::move(device)) {}
+
+    Gpu gpu;  // outlives the buffers
     std::unique_ptr<Recorder> recorder;
     std::shared_ptr<KernelRate> copy_rate = std::make_shared<KernelRate>(kCopySeconds);
     std::shared_ptr<KernelRate> fill_rate = std::make_shared<KernelRate>(kCopySeconds);

@@ -198,3 +198,24 @@ TEST_CASE("streams of several threads share a device") {
     for (std::thread& thread : threads) thread.join();
     for (bool each : right) CHECK(each);
 }
+
+TEST_CASE("a stream keeps its device until its own buffers are gone") {
+    TestDevice driver;
+    if (!driver) return;
+    DeviceOptions options;
+    options.name = driver->info().name;
+    options.validate = true;
+    options.messages = std::make_shared<Messages>();
+    Gpu gpu = demand(Device::open(options));
+    {
+        Stream stream = demand(Stream::create(gpu));
+        const uint32_t value = 7;
+        {
+            const Buffer buffer = demand(stream.make_buffer(4, "value"));
+            stream.upload(std::span(&value, 1), buffer);
+            CHECK(demand(stream.download<uint32_t>(buffer, 1))[0] == value);
+        }
+        gpu.reset();
+    }
+    CHECK(options.messages->list().empty());
+}
