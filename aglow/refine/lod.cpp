@@ -12,8 +12,8 @@ namespace aglow {
 namespace {
 
 constexpr size_t kGrain = 4096;
-constexpr int kBudgetSteps = 20;         // halvings of the range of scales
-constexpr float kSmallestScale = 1e-4f;  // of wishes; 1 / kMostAdaptiveSegments and less make 1
+constexpr int kBudgetSteps = 20;         // halvings of the range of tolerances
+constexpr float kMostCoarseness = 1e8f;  // with it an edge that wished for 10^4 segments has one
 constexpr float kBudgetKept = 0.85f;     // share of the budget that need not be fitted anew
 constexpr float kOutlineSine = 0.35f;    // faces up to 20 degrees from edge-on are at the outline
 constexpr float kMost = kMostAdaptiveSegments;
@@ -53,12 +53,17 @@ float level_of(float wish, Tessellation::Levels kind) {
     return std::clamp(level, 1.0f, kMost);
 }
 
-std::vector<float> scaled_levels(std::span<const float> wishes, float scale,
-                                 Tessellation::Levels kind) {
-    std::vector<float> levels(wishes.size());
-    std::transform(wishes.begin(), wishes.end(), levels.begin(),
-                   [&](float wish) { return level_of(wish * scale, kind); });
-    return levels;
+/// Segments with which a displaced surface is `allowed` away, between powers of two as if the error
+/// were a power of their number.
+float segments_of(const EdgeDetail& errors, float allowed) {
+    size_t k = 0;
+    while (k < errors.size() && errors[k] > allowed) ++k;
+    if (k == 0) return 0;
+    if (k == errors.size()) return kMost;
+    const float share =
+        errors[k] > 0 ? std::log(errors[k - 1] / allowed) / std::log(errors[k - 1] / errors[k])
+                      : 1.0f;
+    return std::exp2(static_cast<float>(k - 1) + share);
 }
 
 }  // namespace
@@ -88,16 +93,44 @@ int uniform_level(std::span<const float> levels, int most) {
     return level;
 }
 
-float LevelOfDetail::fit_budget(const Topology& topology, std::span<const float> wishes) const {
-    const auto triangles = [&](float scale) {
-        return triangle_count(topology, scaled_levels(wishes, scale, options_.levels),
-                              options_.levels);
+/// What the error of an edge depends on.
+struct LevelOfDetail::EdgeError {
+    float curve = 0;   ///< of one segment, m
+    float pixels = 0;  ///< that a metre of error counts as; 0: none does
+
+    /// Segments with which the error is so many pixels; may be below 1.
+    float wish(const EdgeDetail* detail, float tolerance) const {
+        const float curved = std::sqrt(curve * pixels / tolerance);
+        if (!detail || pixels == 0) return curved;
+        return std::max(curved, segments_of(*detail, tolerance / pixels));
+    }
+};
+
+namespace {
+
+const EdgeDetail* detail_of(const EdgeFacts& facts, size_t edge) {
+    return facts.details.empty() ? nullptr : &facts.details[edge];
+}
+
+}  // namespace
+
+float LevelOfDetail::fit_budget(const Topology& topology, std::span<const EdgeError> errors,
+                                const EdgeFacts& facts) const {
+    std::vector<float> levels(errors.size());
+    const auto triangles = [&](float coarseness) {
+        parallel_for(levels.size(), kGrain, [&](size_t begin, size_t end) {
+            for (size_t e = begin; e < end; ++e)
+                levels[e] =
+                    level_of(errors[e].wish(detail_of(facts, e), options_.tolerance * coarseness),
+                             options_.levels);
+        });
+        return triangle_count(topology, levels, options_.levels);
     };
     if (triangles(1) <= options_.budget) return 1;
-    const uint64_t last = triangles(last_scale_);
+    const uint64_t last = triangles(last_coarseness_);
     const float kept = kBudgetKept * static_cast<float>(options_.budget);
-    if (last <= options_.budget && static_cast<float>(last) >= kept) return last_scale_;
-    float fits = kSmallestScale, too_fine = 1;
+    if (last <= options_.budget && static_cast<float>(last) >= kept) return last_coarseness_;
+    float too_fine = 1, fits = kMostCoarseness;
     for (int step = 0; step < kBudgetSteps; ++step) {
         const float middle = std::sqrt(fits * too_fine);
         (triangles(middle) <= options_.budget ? fits : too_fine) = middle;
@@ -106,32 +139,38 @@ float LevelOfDetail::fit_budget(const Topology& topology, std::span<const float>
 }
 
 LevelOfDetail::Choice LevelOfDetail::choose(const Topology& topology, const PatchControl& control,
-                                            const Viewpoint& view) {
-    std::vector<float> wishes(topology.edge_count());
-    parallel_for(wishes.size(), kGrain, [&](size_t begin, size_t end) {
+                                            const Viewpoint& view, const EdgeFacts& facts) {
+    std::vector<EdgeError> errors(topology.edge_count());
+    parallel_for(errors.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t e = begin; e < end; ++e) {
+            if (!facts.hidden.empty() && facts.hidden[e] != 0) continue;
             const uint32_t h = topology.edge_half[e];
             const uint32_t v = topology.vertex[h], w = topology.end(h);
             const vec3 a = control.positions[std::min(v, w)], b = control.positions[std::max(v, w)];
-            const float pixels =
-                curvature(control.edges[e], a, b) / 8 * scale_at(view, a, b) *
-                importance(view, options_.silhouette, a, b, control.directions[std::min(v, w)],
-                           control.directions[std::max(v, w)]);
-            wishes[e] = std::sqrt(pixels / options_.tolerance);
+            errors[e].curve = curvature(control.edges[e], a, b) / 8;
+            errors[e].pixels =
+                scale_at(view, a, b) * importance(view, options_.silhouette, a, b,
+                                                  control.directions[std::min(v, w)],
+                                                  control.directions[std::max(v, w)]);
         }
     });
-    const float scale = options_.budget > 0 ? fit_budget(topology, wishes) : 1;
-    last_scale_ = scale;
+    last_coarseness_ = options_.budget > 0 ? fit_budget(topology, errors, facts) : 1;
 
     Choice choice;
-    choice.tolerance = options_.tolerance / (scale * scale);
-    choice.levels = scaled_levels(wishes, scale, options_.levels);
+    choice.tolerance = options_.tolerance * last_coarseness_;
+    choice.levels.resize(errors.size());
     // Coarser levels wait; not where that would break the budget.
-    std::vector<float> held = choice.levels;
-    for (size_t e = 0; last_levels_.size() == held.size() && e < held.size(); ++e) {
-        const float slow = level_of(wishes[e] * scale * (1 + options_.hysteresis), options_.levels);
-        held[e] = std::max(held[e], std::min(last_levels_[e], slow));
-    }
+    std::vector<float> held(errors.size());
+    const bool has_last = last_levels_.size() == held.size();
+    parallel_for(errors.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t e = begin; e < end; ++e) {
+            const float wish = errors[e].wish(detail_of(facts, e), choice.tolerance);
+            choice.levels[e] = held[e] = level_of(wish, options_.levels);
+            if (!has_last) continue;
+            const float slow = level_of(wish * (1 + options_.hysteresis), options_.levels);
+            held[e] = std::max(held[e], std::min(last_levels_[e], slow));
+        }
+    });
     choice.triangles = triangle_count(topology, held, options_.levels);
     if (options_.budget == 0 || choice.triangles <= options_.budget)
         choice.levels = std::move(held);

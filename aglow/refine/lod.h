@@ -5,6 +5,7 @@
 #include "aglow/refine/patches.h"
 #include "aglow/refine/tessellation.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -34,12 +35,22 @@ struct LodOptions {
     Tessellation::Levels levels = Tessellation::Levels::discrete;
 };
 
+/// How far a displaced surface is from what 2^k segments of an edge of it make, m, by k.
+using EdgeDetail = std::array<float, 8>;
+
+/// What is known of edges beside their curves.
+struct EdgeFacts {
+    std::span<const uint8_t> hidden = {};  ///< [edge] 1: coarse will do, none of its faces shows
+    std::span<const EdgeDetail> details = {};  ///< [edge]; empty: nothing is displaced
+};
+
 /// Chooses how finely each edge of a mesh of curved patches is refined, from frame to frame.
 ///
 /// An edge is a cubic whose second derivative is bounded by its control points: cut into n
 /// segments it is away from them by at most M / (8 n^2). The level is the n for which that, seen
-/// from the nearest end of the edge, is the tolerance. It follows from the edge and its ends alone.
-/// With a budget the tolerance is raised until the triangles fit.
+/// from the nearest place of the edge, is the tolerance. It follows from the edge and its ends
+/// alone. Where the surface is displaced, the level is also that at which what it misses is the
+/// tolerance. With a budget the tolerance is raised until the triangles fit.
 ///
 /// Source  de Boor, "A Practical Guide to Splines", 1978 (II.6, the bound); Lindstrom et al.,
 ///         "Real-Time, Continuous Level of Detail Rendering of Height Fields", SIGGRAPH 1996
@@ -53,17 +64,21 @@ public:
         uint64_t triangles = 0;     ///< of all faces then; above the budget if all levels are 1
         float tolerance = 0;        ///< pixels, as the budget made it
     };
-    /// Shapes  `topology` the same in each call, its faces triangles or quads; `control` of it.
+    /// Shapes  `topology` the same in each call, its faces triangles or quads; `control` of it, of
+    ///         which positions, edges and directions are looked at.
     /// Cost    O(edges), with a budget O(edges and faces) twenty times
     /// Repeat  same bits for the same calls in the same order.
-    Choice choose(const Topology& topology, const PatchControl& control, const Viewpoint& view);
+    Choice choose(const Topology& topology, const PatchControl& control, const Viewpoint& view,
+                  const EdgeFacts& facts = {});
 
 private:
-    float fit_budget(const Topology& topology, std::span<const float> wishes) const;
+    struct EdgeError;
+    float fit_budget(const Topology& topology, std::span<const EdgeError> errors,
+                     const EdgeFacts& facts) const;
 
     LodOptions options_;
     std::vector<float> last_levels_;
-    float last_scale_ = 1;  // of wishes
+    float last_coarseness_ = 1;  // by which the budget multiplied the tolerance
 };
 
 /// Triangles of Tessellation::adaptive() with these levels.

@@ -206,6 +206,57 @@ TEST_CASE("small movements to and fro change no level") {
     CHECK(changes(0.25f) == 0);
 }
 
+TEST_CASE("an edge that nobody sees is one segment, and all others stay as they are") {
+    const Curved ball = curved(sphere(3));
+    const Topology& topology = ball.mesh.topology;
+    std::vector<uint8_t> hidden(topology.edge_count());
+    for (size_t e = 0; e < hidden.size(); e += 3) hidden[e] = 1;
+    const auto levels = [&](const EdgeFacts& facts) {
+        return LevelOfDetail({}).choose(topology, ball.control, eye_at({0, 0, 2}), facts).levels;
+    };
+    const std::vector<float> seen = levels({}), some = levels({hidden, {}});
+    for (size_t e = 0; e < hidden.size(); ++e) {
+        CHECK(seen[e] > 1);
+        CHECK(some[e] == (hidden[e] ? 1 : seen[e]));
+    }
+}
+
+TEST_CASE("displaced edges have the segments with which they miss no more than the tolerance") {
+    const Curved ball = curved(sphere(3));
+    const Topology& topology = ball.mesh.topology;
+    Viewpoint view;
+    view.perspective = false;
+    view.pixels_per_metre = 100;
+    LodOptions options;
+    options.silhouette = 1;
+    const auto level = [&](float tolerance, const EdgeDetail& detail) {
+        options.tolerance = tolerance;
+        const std::vector<EdgeDetail> details(topology.edge_count(), detail);
+        const LevelOfDetail::Choice choice =
+            LevelOfDetail(options).choose(topology, ball.control, view, {{}, details});
+        return *std::max_element(choice.levels.begin(), choice.levels.end());
+    };
+    // 1 / n metres with n segments: 100 pixels over n.
+    EdgeDetail harmonic;
+    for (size_t k = 0; k < harmonic.size(); ++k) harmonic[k] = 1 / static_cast<float>(1u << k);
+    CHECK(level(100, harmonic) == 1);
+    CHECK(level(10.1f, harmonic) == 10);
+    CHECK(level(2.01f, harmonic) == 50);
+    CHECK(level(0.2f, harmonic) == 128);
+    // All of it lies within 8 segments.
+    CHECK(level(10, {1, 1, 1, 0, 0, 0, 0, 0}) == 8);
+    CHECK(level(200, {1, 1, 1, 0, 0, 0, 0, 0}) == 1);
+    // With a budget the tolerance is one at which such edges fit.
+    options.budget = 5000;
+    const std::vector<EdgeDetail> details(topology.edge_count(), harmonic);
+    options.tolerance = 0.1f;
+    const LevelOfDetail::Choice choice =
+        LevelOfDetail(options).choose(topology, ball.control, view, {{}, details});
+    CHECK(choice.triangles <= 5000);
+    CHECK(choice.triangles > 2500);
+    for (const float own : choice.levels) CHECK(100 / own <= 1.01f * choice.tolerance);
+}
+
 TEST_CASE("a uniform level is as fine as the finest edge") {
     CHECK(uniform_level(std::vector<float>{1, 1}, 5) == 0);
     CHECK(uniform_level(std::vector<float>{1, 1.5f}, 5) == 1);

@@ -53,4 +53,21 @@ Pattern quad_pattern(int segments) {
     return pattern;
 }
 
+Pattern nested_triangle_pattern(int segments) {
+    const uint32_t n = checked(segments);
+    Pattern pattern;
+    uint32_t first = 0;  // vertex of a diagonal, on which i + j is the same
+    for (uint32_t diagonal = 0; diagonal <= n; ++diagonal) {
+        for (uint32_t j = 0; j <= diagonal; ++j)
+            pattern.steps.push_back((diagonal - j) + (j << 16));
+        const uint32_t before = first - diagonal;  // first vertex of the diagonal before
+        for (uint32_t j = 0; j < diagonal; ++j) {
+            if (j > 0) pattern.triangles.push_back({before + j - 1, first + j, before + j});
+            pattern.triangles.push_back({before + j, first + j, first + j + 1});
+        }
+        first += diagonal + 1;
+    }
+    return pattern;
+}
+
 }  // namespace aglow

@@ -33,4 +33,9 @@ Pattern triangle_pattern(int segments);
 /// Likewise for quads: (segments + 1)^2 vertices, 2 segments^2 triangles.
 Pattern quad_pattern(int segments);
 
+/// triangle_pattern(n) of all n up to `segments` in one: its first n^2 triangles are those of n,
+/// and its first (n + 1)(n + 2) / 2 vertices are theirs. Without coordinates, which depend on n.
+/// Shapes  as triangle_pattern(segments)
+Pattern nested_triangle_pattern(int segments);
+
 }  // namespace aglow

@@ -35,5 +35,26 @@ TEST_CASE("a pattern covers its polygon once with triangles that run counter-clo
     }
 }
 
+TEST_CASE("a nested pattern begins with all smaller ones") {
+    const Pattern nested = nested_triangle_pattern(64);
+    for (const int n : {1, 2, 3, 7, 16, 64}) {
+        const size_t count = static_cast<size_t>(n);
+        Pattern own;
+        own.triangles.assign(nested.triangles.begin(),
+                             nested.triangles.begin() + static_cast<ptrdiff_t>(count * count));
+        for (size_t v = 0; v < (count + 1) * (count + 2) / 2; ++v) {
+            const auto i = static_cast<float>(nested.steps[v] & 0xffffu),
+                       j = static_cast<float>(nested.steps[v] >> 16);
+            own.coordinates.push_back({i / static_cast<float>(n), j / static_cast<float>(n)});
+        }
+        for (const uvec3 t : own.triangles)
+            for (const uint32_t v : {t.x, t.y, t.z}) {
+                REQUIRE(v < own.coordinates.size());
+                CHECK(own.coordinates[v].x + own.coordinates[v].y <= 1.00001f);
+            }
+        check_covers(own, 0.5);
+    }
+}
+
 }  // namespace
 }  // namespace aglow

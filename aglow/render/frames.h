@@ -32,6 +32,8 @@ struct DrawnFrame {
     Image luminance;                ///< cd/m^2
     std::vector<PassTime> seconds;  ///< of the passes, in their order
     RayTally rays;                  ///< of this frame; all 0 where nobody counts
+    uint64_t triangles = 0;         ///< that were rasterized
+    float tolerance = 0;            ///< pixels that refined edges may be off; 0: nobody asked
 };
 
 /// Draws a scene with engine `rays`, frame by frame: what render_rays() says, on some device.

@@ -10,11 +10,17 @@ struct Refinement {
         none,
         pn,      ///< curved PN triangles
         tagged,  ///< the same, shaped by the file's _SHARPNESS, _TENSION and _BIAS
+        /// `tagged`, every edge as fine as it takes to look smooth in the frame
+        automatic,
     };
     Kind kind = Kind::none;
-    int level = 0;  ///< 2^level segments to an edge, at most kMostRefinement
+    int level = 0;           ///< 2^level segments to an edge, at most kMostRefinement
+    float tolerance = 0.5f;  ///< automatic: pixels that edges may be away from the curve
+    uint64_t budget = 0;     ///< automatic: triangles of a frame at most, 0: any number
 };
 inline constexpr int kMostRefinement = 7;
+inline constexpr float kFinestTolerance = 0.01f;  ///< pixels
+inline constexpr float kCoarsestTolerance = 1000;
 
 struct RasterOptions {
     int samples = 4;  ///< of a pixel for edges, as many as the GPU takes: 1, 2, 4, 8, ...
@@ -38,10 +44,12 @@ struct RasterOptions {
 /// Refined meshes are welded first, each for itself: triangles that meet in position meet without
 /// gaps where their normals agree, and along creases of the file's normals where those differ too.
 ///
-/// Errors  bad_argument (samples < 1, level out of range), unsupported (the GPU cannot draw),
-/// out_of_memory,
-///         device_lost.
-/// Repeat  same bits every run on one device.
+/// Automatic levels go from frame to frame: see LevelOfDetail. They make triangles of the coarse
+/// mesh only finer, so that a budget below those is not kept.
+///
+/// Errors  bad_argument (samples < 1, level or tolerance out of range), unsupported (the GPU cannot
+///         draw), out_of_memory, device_lost.
+/// Repeat  same bits every run on one device, of the same frames in the same order.
 Result<std::unique_ptr<FrameRenderer>> make_raster_frame_renderer(
     const Gpu& gpu, const Footage& footage, const RasterOptions& options = {});
 

@@ -15,8 +15,18 @@ struct RasterPattern {
 };
 AG_BUFFER_OF(RasterPattern);
 
+// Likewise where every edge has a level of its own. 32 bytes.
+struct RasterAdaptive {
+    PatchMeshPtr mesh;
+    uintPtr patch_of;       // as above
+    PatchLevelsPtr levels;  // [patch]
+    uintPtr steps;          // of nested_triangle_pattern()
+};
+AG_BUFFER_OF(RasterAdaptive);
+
 AG_NAMESPACE_END
 #ifdef __cplusplus
 static_assert(sizeof(aglow::shared::RasterPattern) == 32);
+static_assert(sizeof(aglow::shared::RasterAdaptive) == 32);
 #endif
 #endif

@@ -29,6 +29,7 @@ constexpr int kPathSamples = 64;
 constexpr int kRasterSamples = 4;
 constexpr int kReflections = 2;
 constexpr double kFps = 30;
+constexpr int kMostBudget = 1'000'000'000;
 
 enum class Engine : uint8_t { rays, path, raster };
 
@@ -53,6 +54,7 @@ struct Options {
     std::optional<Shading> shading;
     std::optional<Accel> accel;
     std::optional<Refinement> refine;
+    std::optional<int> budget;
     std::optional<FrameRange> frames;
     std::optional<double> fps;
     SceneOptions scene;
@@ -71,9 +73,22 @@ Result<Refinement> parse_refinement(const std::string& text) {
     if (text == "none") return Refinement{};
     const size_t colon = text.find(':');
     const std::string kind = text.substr(0, colon);
+    if (kind == "auto") {
+        Refinement refinement{.kind = Refinement::Kind::automatic};
+        if (colon == std::string::npos) return refinement;
+        AG_TRY(const double pixels, parse_number(text.substr(colon + 1)));
+        if (!(pixels >= kFinestTolerance && pixels <= kCoarsestTolerance))
+            return fail(Errc::bad_argument,
+                        fmt::format("auto:PIXELS goes from {} to {}, not {}", kFinestTolerance,
+                                    kCoarsestTolerance, pixels));
+        refinement.tolerance = static_cast<float>(pixels);
+        return refinement;
+    }
     if (colon == std::string::npos || (kind != "pn" && kind != "st"))
         return fail(Errc::bad_argument,
-                    fmt::format("\"{}\" is no refinement; there is none, pn:N and st:N", text));
+                    fmt::format("\"{}\" is no refinement; there is none, pn:N, st:N, auto and "
+                                "auto:PIXELS",
+                                text));
     AG_TRY(const int64_t level, parse_whole(text.substr(colon + 1), 0, kMostRefinement));
     return Refinement{kind == "pn" ? Refinement::Kind::pn : Refinement::Kind::tagged,
                       static_cast<int>(level)};
@@ -114,9 +129,14 @@ Table table(Options& o) {
                                   {"grid2", Accel::grid2},
                                   {"bvh", Accel::bvh}}),
          "NAME", "how a GPU finds hits: auto (default), grid, grid2 (two-level) or bvh"},
-        {"--refine", parsed(&o.refine, parse_refinement), "none|pn:N|st:N",
-         "curved triangles with --engine raster, 2^N segments to an edge: pn, or st with the "
-         "file's _SHARPNESS, _TENSION and _BIAS (default none)"},
+        {"--refine", parsed(&o.refine, parse_refinement), "none|pn:N|st:N|auto[:PIXELS]",
+         fmt::format("curved triangles with --engine raster, 2^N segments to an edge: pn, or st "
+                     "with the file's _SHARPNESS, _TENSION and _BIAS; auto: each edge as fine as "
+                     "it takes to be within PIXELS (default {}) of its curve (default none)",
+                     Refinement{}.tolerance)},
+        {"--budget", whole(&o.budget, 1, kMostBudget), "N",
+         "triangles of a frame at most with --refine auto, whose PIXELS grow until they fit; no "
+         "fewer than the file has"},
         {"--bounces", parsed(&o.bounces, parse_bounces), "N|auto",
          "diffuse reflections with --engine path (default auto: all)"},
         {"--frames", parsed(&o.frames, parse_frames), "A:B",
@@ -138,6 +158,8 @@ Status check_engine(const Options& options) {
                     "take --engine path");
     if (options.refine && options.engine != Engine::raster)
         return fail(Errc::bad_argument, "--refine belongs to --engine raster; give both");
+    if (options.budget && (!options.refine || options.refine->kind != Refinement::Kind::automatic))
+        return fail(Errc::bad_argument, "--budget belongs to --refine auto; give both");
     if (options.engine == Engine::raster && options.bounces)
         return fail(Errc::bad_argument,
                     "--engine raster shows light that is baked; give --bounces to `aglow bake`, or "
@@ -214,8 +236,9 @@ Status open_source(const Options& options, Scene& scene, Console& console, Sourc
             "bake`",
             options.input.string()));
     if (options.engine == Engine::raster) {
-        const RasterOptions raster{.samples = options.samples.value_or(kRasterSamples),
-                                   .refinement = options.refine.value_or(Refinement{})};
+        RasterOptions raster{.samples = options.samples.value_or(kRasterSamples),
+                             .refinement = options.refine.value_or(Refinement{})};
+        raster.refinement.budget = static_cast<uint64_t>(options.budget.value_or(0));
         AG_TRY(source.renderer,
                raster_renderer({scene, source.lit ? &*source.lit : nullptr}, raster, console));
         return {};
@@ -266,6 +289,8 @@ public:
             passes.push_back({{"pass", pass.pass},
                               {"seconds", pass.seconds / static_cast<double>(outputs_.size())}});
         report["passes"] = passes;
+        if (triangles_ > 0) report["triangles"] = triangles_;
+        if (tolerance_ > 0) report["tolerance_pixels"] = tolerance_;
         if (rays_.total() == 0) return;
         report["rays"] = rays_.total();
         report["rays_by_kind"] = {
@@ -290,6 +315,8 @@ private:
 
     void add(const DrawnFrame& drawn) {
         rays_ += drawn.rays;
+        triangles_ = std::max(triangles_, drawn.triangles);
+        tolerance_ = std::max(tolerance_, drawn.tolerance);
         for (const PassTime& pass : drawn.seconds) {
             const auto known = std::find_if(passes_.begin(), passes_.end(),
                                             [&](const PassTime& p) { return p.pass == pass.pass; });
@@ -321,6 +348,8 @@ private:
     std::optional<float> exposure_;
     std::vector<PassTime> passes_;  // summed over the frames
     RayTally rays_;
+    uint64_t triangles_ = 0;  // of the frame with the most
+    float tolerance_ = 0;     // of the coarsest
     std::vector<std::filesystem::path> outputs_;
 };
 

@@ -100,6 +100,40 @@ class Pictures(harness.AglowTest):
         self.run_aglow("render", "lit.glb", "-o", "r.png", "--engine", "raster", "--reflections",
                        "1", code=1, says="traces no rays")
 
+    def test_refinement_while_drawing_keeps_tolerance_and_budget(self):
+        gpus = self.gpus()
+        if not gpus:
+            self.skipTest("no GPU")
+        self.run_aglow("scene", "sculpture:300", "-o", "coarse.glb")
+        def drawn(name, *arguments):
+            return self.json_of("render", "coarse.glb", "-o", f"{name}.exr", "--size", "96x72",
+                                "--sky", "100", "--sun", "30,60,5000", "--engine", "raster",
+                                "--device", gpus[0], *arguments)
+        none = drawn("none")
+        self.assertNotIn("tolerance_pixels", none)
+        fine = drawn("fine", "--refine", "pn:5")
+        auto = drawn("auto", "--refine", "auto:0.25")
+        self.assertEqual(fine["triangles"], 1024 * none["triangles"])
+        self.assertEqual(auto["tolerance_pixels"], 0.25)
+        self.assertGreater(auto["triangles"], none["triangles"])
+        self.assertLess(auto["triangles"], fine["triangles"] / 50)
+        self.run_aglow("compare", "auto.exr", "fine.exr", "--max-rmse", "5%")
+        self.run_aglow("compare", "none.exr", "fine.exr", "--max-rmse", "10%", code=7)
+        budget = none["triangles"] + 1000
+        less = drawn("less", "--refine", "auto:0.05", "--budget", budget)
+        self.assertLessEqual(less["triangles"], budget)
+        self.assertGreater(less["tolerance_pixels"], 0.05)
+        walk = drawn("walk", "--refine", "auto", "--frames", "0:2", "--budget", budget)
+        self.assertEqual(walk["frames"], 3)
+        self.assertLessEqual(walk["triangles"], budget)
+        for arguments, word in ((("--refine", "auto:0"), "0.01"), (("--refine", "auto:x"), "x"),
+                                (("--refine", "auto:1e9"), "1000"), (("--refine", "pn"), "auto"),
+                                (("--budget", "9"), "--refine auto"),
+                                (("--budget", "9", "--refine", "pn:2"), "--refine auto"),
+                                (("--budget", "0", "--refine", "auto"), "--budget")):
+            self.run_aglow("render", "plane.gltf", "-o", "n.png", "--engine", "raster", *arguments,
+                           code=1, says=word)
+
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
                      "--rays", "256", "--device", "gpu:llvmpipe")

@@ -150,6 +150,10 @@ Result<DevicePattern> upload_quad_pattern(vk::Stream& stream, int segments) {
     return upload_pattern(stream, quad_pattern(segments), segments, 4);
 }
 
+Result<DevicePattern> upload_nested_pattern(vk::Stream& stream, int segments) {
+    return upload_pattern(stream, nested_triangle_pattern(segments), segments, 3);
+}
+
 struct DevicePatches::State {
     explicit State(Kernels made) : kernels(std::move(made)) {}
 
@@ -157,6 +161,7 @@ struct DevicePatches::State {
     shared::PatchMesh layout = {};
     std::vector<vk::Buffer> buffers;  ///< what `layout` points to
     vk::Buffer mesh, levels;
+    vk::Buffer control;  ///< positions, directions and edge_points of `layout`, in this order
 
     template <class T>
     Status upload(vk::Stream& stream, uint64_t& address, std::span<const T> values,
@@ -214,9 +219,11 @@ Status DevicePatches::State::upload_displacement(vk::Stream& stream, const Topol
 Status DevicePatches::State::make_frame(vk::Stream& stream) {
     const uint64_t v = layout.vertex_count, e = layout.edge_count, f = layout.face_count;
     const uint64_t displaced = layout.displacement_kind != shared::kNoDisplacement ? f : 0;
-    AG_CHECK(make(stream, layout.positions, v * sizeof(vec3), "vertices of patches"));
-    AG_CHECK(make(stream, layout.directions, v * sizeof(vec3), "directions of displacement"));
-    AG_CHECK(make(stream, layout.edge_points, e * sizeof(shared::EdgePoints), "points of edges"));
+    AG_TRY(control, stream.make_buffer(2 * v * sizeof(vec3) + e * sizeof(shared::EdgePoints),
+                                       "control points"));
+    layout.positions = control.address();
+    layout.directions = layout.positions + v * sizeof(vec3);
+    layout.edge_points = layout.directions + v * sizeof(vec3);
     AG_CHECK(make(stream, layout.edge_directions, e * sizeof(vec3), "directions of edges"));
     AG_CHECK(make(stream, layout.patches, f * sizeof(shared::DevicePatch), "patches"));
     AG_CHECK(make(stream, layout.patch_directions, displaced * sizeof(shared::PatchDirections),
@@ -272,6 +279,20 @@ void DevicePatches::update(vk::Stream& stream, uint64_t positions, uint64_t norm
     stream.run(s.kernels.edges, args, vk::group_count(s.layout.edge_count, shared::kPatchGroup));
     stream.barrier();
     stream.run(s.kernels.control, args, vk::group_count(s.layout.face_count, shared::kPatchGroup));
+}
+
+Result<PatchControl> DevicePatches::download_control(vk::Stream& stream) const {
+    const State& s = *state_;
+    const size_t v = s.layout.vertex_count;
+    AG_TRY(const auto points,
+           stream.download<vec3>(s.control, 2 * v + 2 * uint64_t{s.layout.edge_count}));
+    PatchControl control;
+    control.positions.assign(points.begin(), points.begin() + static_cast<ptrdiff_t>(v));
+    control.directions.assign(points.begin() + static_cast<ptrdiff_t>(v),
+                              points.begin() + static_cast<ptrdiff_t>(2 * v));
+    for (size_t i = 2 * v; i < points.size(); i += 2)
+        control.edges.push_back({points[i], points[i + 1]});
+    return control;
 }
 
 void DevicePatches::set_levels(vk::Stream& stream,

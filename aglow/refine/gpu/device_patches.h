@@ -27,6 +27,7 @@ struct DevicePattern {
 /// Ready once a barrier() follows. Errors: out_of_memory.
 Result<DevicePattern> upload_triangle_pattern(vk::Stream& stream, int segments);
 Result<DevicePattern> upload_quad_pattern(vk::Stream& stream, int segments);
+Result<DevicePattern> upload_nested_pattern(vk::Stream& stream, int segments);
 
 /// What stays the same of a coarse mesh, beside its topology.
 struct DevicePatchInput {
@@ -59,6 +60,10 @@ public:
     /// Control points from positions and normals at these addresses (vec3 arrays).
     /// Synchronisation  Starts and ends without barrier.
     void update(vk::Stream& stream, uint64_t positions, uint64_t normals) const;
+
+    /// What update() made of positions, edges and directions; the rest of it stays empty.
+    /// Synchronisation  Waits for all that was recorded.
+    Result<PatchControl> download_control(vk::Stream& stream) const;
 
     /// Levels of faces, [face_count]; see shared::PatchLevels. Starts and ends without barrier.
     void set_levels(vk::Stream& stream, std::span<const shared::PatchLevels> levels) const;

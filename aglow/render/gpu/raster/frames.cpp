@@ -26,6 +26,8 @@ namespace {
 constexpr size_t kMostEmitters = 32;  // whose form factors are worked out at every pixel
 constexpr float kMostHalf = 65504;    // the largest number of 16 bits
 
+using Layers = std::array<std::vector<FaceRange>, kSolidLayers>;
+
 /// Pipelines of the layers that a scene has.
 struct Pipelines {
     std::array<std::optional<vk::GraphicsPipeline>, kSolidLayers> solid;
@@ -47,7 +49,9 @@ private:
     Status reserve_target(const View& view);
     Status move(double time);
     void place(const View& view, const Projection& projection);
-    void draw_layers(const Projection& projection, uint64_t order);
+    void draw_layers(const Layers& layers, uint64_t order, DrawnFrame& frame);
+    void draw_faces(Layer layer, std::span<const FaceRange> faces, uint64_t order,
+                    DrawnFrame& frame);
     Result<DrawnFrame> draw_frame(double time, const View& view, const Monitor& monitor) override;
     Result<Image> read_image();
 
@@ -135,6 +139,10 @@ Status RasterRenderer::prepare(const RasterOptions& options) {
     if (refinement.level < 0 || refinement.level > kMostRefinement)
         return fail(Errc::bad_argument, fmt::format("refinement level {} is not in 0..{}",
                                                     refinement.level, kMostRefinement));
+    if (!(refinement.tolerance >= kFinestTolerance && refinement.tolerance <= kCoarsestTolerance))
+        return fail(Errc::bad_argument,
+                    fmt::format("a tolerance of {} pixels is not in {}..{}", refinement.tolerance,
+                                kFinestTolerance, kCoarsestTolerance));
     AG_CHECK(gpu()->check_drawing());
     uint32_t samples = 1;
     while (samples < static_cast<uint32_t>(std::min(options.samples, 64))) samples *= 2;
@@ -144,6 +152,9 @@ Status RasterRenderer::prepare(const RasterOptions& options) {
     parts_.emplace(scene_, rest);
     if (refinement.kind == Refinement::Kind::none) {
         AG_TRY(source_, make_plain_source(stream(), footage_->surfaces()));
+    } else if (refinement.kind == Refinement::Kind::automatic) {
+        AG_TRY(source_,
+               make_adaptive_source(stream(), footage_->surfaces(), scene_, rest, refinement));
     } else {
         AG_TRY(source_,
                make_pattern_source(stream(), footage_->surfaces(), scene_, rest, refinement));
@@ -167,8 +178,6 @@ Status RasterRenderer::move(double time) {
     const vk::Stream::Scope scope(stream(), "pose");
     AG_CHECK(footage_->pose(stream(), time));
     footage_->place(stream(), time, false);
-    AG_CHECK(source_->update(stream()));
-    stream().barrier();
     return {};
 }
 
@@ -191,21 +200,30 @@ void RasterRenderer::place(const View& view, const Projection& projection) {
     stream().barrier();
 }
 
-void RasterRenderer::draw_layers(const Projection& projection, uint64_t order) {
+void RasterRenderer::draw_faces(Layer layer, std::span<const FaceRange> faces, uint64_t order,
+                                DrawnFrame& frame) {
+    const shared::RasterArgs args{footage_->scene(), frame_.address(), source_->geometry(), order,
+                                  order != 0 ? 1u : 0u};
+    const vk::GraphicsPipeline& pipeline = layer == Layer::blended
+                                               ? *pipelines_.blended
+                                               : *pipelines_.solid[static_cast<size_t>(layer)];
+    for (const vk::Draw& draw : source_->draws(layer, faces))
+        stream().draw(pipeline, *target_, args, draw);
+    frame.triangles += source_->triangles(layer, faces);
+}
+
+void RasterRenderer::draw_layers(const Layers& layers, uint64_t order, DrawnFrame& frame) {
     const vk::Stream::Scope scope(stream(), "draw");
-    shared::RasterArgs args{footage_->scene(), frame_.address(), source_->geometry(), 0, 0};
     stream().clear(*target_, {0, 0, 0, 1});
-    const auto layers =
-        parts_->visible(footage_->surfaces().part_transforms(), projection, source_->overhang());
     for (size_t i = 0; i < layers.size(); ++i)
-        for (const FaceRange& range : layers[i])
-            stream().draw(*pipelines_.solid[i], *target_, args,
-                          source_->draw(range.first, range.count));
-    if (pipelines_.sky) stream().draw(*pipelines_.sky, *target_, args, {0, 3});
+        if (!layers[i].empty())
+            draw_faces(static_cast<Layer>(i), layers[i], source_->order(), frame);
+    if (pipelines_.sky)
+        stream().draw(*pipelines_.sky, *target_,
+                      shared::RasterArgs{footage_->scene(), frame_.address(), 0, 0, 0}, {0, 3});
     if (!pipelines_.blended) return;
-    args.order = order;
-    args.ordered = 1;
-    stream().draw(*pipelines_.blended, *target_, args, source_->draw(0, blend_order_->count()));
+    const FaceRange blended{0, blend_order_->count()};
+    draw_faces(Layer::blended, {&blended, 1}, order, frame);
 }
 
 Result<Image> RasterRenderer::read_image() {
@@ -231,16 +249,19 @@ Result<DrawnFrame> RasterRenderer::draw_frame(double time, const View& view,
                                               const Monitor& monitor) {
     AG_CHECK(reserve_target(view));
     AG_CHECK(move(time));
-    const Projection projection =
-        projection_of(view, parts_->bounds(footage_->surfaces().part_transforms()));
+    const std::span<const mat4> transforms = footage_->surfaces().part_transforms();
+    const Projection projection = projection_of(view, parts_->bounds(transforms));
+    const Layers layers = parts_->visible(transforms, projection, source_->overhang());
+    AG_CHECK(source_->update(stream(), {view, projection, layers, parts_->blended()}));
     place(view, projection);
     uint64_t order = 0;
     if (blend_order_) {
         const vk::Stream::Scope scope(stream(), "order");
         order = blend_order_->record(stream(), footage_->scene(), frame_.address());
     }
-    draw_layers(projection, order);
     DrawnFrame frame;
+    draw_layers(layers, order, frame);
+    frame.tolerance = source_->tolerance();
     AG_TRY(frame.luminance, read_image());
     if (monitor.cancelled()) return fail(Errc::cancelled, "rendering was interrupted");
     return frame;

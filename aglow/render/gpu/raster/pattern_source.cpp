@@ -25,7 +25,8 @@ public:
 
     std::span<const uint32_t> vertex_shader() const override { return shaders::pattern_vert; }
 
-    Status update(vk::Stream& stream) override {
+    Status update(vk::Stream& stream, const Shot& /*shot*/) override {
+        const vk::Stream::Scope scope(stream, "pose");
         const shared::RasterPattern geometry{patches_.mesh(), patch_of_.address(),
                                              pattern_.steps.address(),
                                              static_cast<uint32_t>(pattern_.segments), 0};
@@ -34,8 +35,12 @@ public:
         return {};
     }
     uint64_t geometry() const override { return geometry_.address(); }
-    vk::Draw draw(uint32_t first_face, uint32_t face_count) const override {
-        return {0, 3 * pattern_.triangle_count, first_face, face_count, &pattern_.triangles};
+    std::vector<vk::Draw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
+        std::vector<vk::Draw> draws;
+        for (const FaceRange& run : faces)
+            draws.push_back(
+                {0, 3 * pattern_.triangle_count, run.first, run.count, &pattern_.triangles});
+        return draws;
     }
     float overhang() const override { return 0.5f; }  // control points are a third of an edge off
 

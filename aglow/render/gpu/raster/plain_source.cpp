@@ -19,7 +19,8 @@ public:
 
     std::span<const uint32_t> vertex_shader() const override { return shaders::mesh_vert; }
 
-    Status update(vk::Stream& stream) override {
+    Status update(vk::Stream& stream, const Shot& /*shot*/) override {
+        const vk::Stream::Scope scope(stream, "pose");
         const shared::RasterGeometry geometry{surfaces_.positions(),
                                               surfaces_.normals(),
                                               surfaces_.indices(),
@@ -30,8 +31,10 @@ public:
         return {};
     }
     uint64_t geometry() const override { return geometry_.address(); }
-    vk::Draw draw(uint32_t first_face, uint32_t face_count) const override {
-        return {3 * first_face, 3 * face_count};
+    std::vector<vk::Draw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
+        std::vector<vk::Draw> draws;
+        for (const FaceRange& run : faces) draws.push_back({3 * run.first, 3 * run.count});
+        return draws;
     }
 
 private:

@@ -2,14 +2,25 @@
 #pragma once
 #include "aglow/core/result.h"
 #include "aglow/mesh/gpu/device_surfaces.h"
+#include "aglow/render/gpu/raster/part_list.h"
+#include "aglow/render/gpu/raster/projection.h"
 #include "aglow/render/raster.h"
 #include "aglow/vk/stream.h"
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace aglow::render::gpu {
+
+/// What of the surfaces a frame shows, and from where.
+struct Shot {
+    const View& view;
+    const Projection& projection;
+    std::span<const std::vector<FaceRange>, kSolidLayers> layers;  ///< PartList::visible()
+    std::span<const uint32_t> blended;                             ///< faces
+};
 
 /// Where the vertices of the scene's triangles ("faces") come from: from memory as they are posed,
 /// from what these are refined to, or from a pattern that is drawn for each. Outputs of the vertex
@@ -23,16 +34,26 @@ public:
 
     virtual std::span<const uint32_t> vertex_shader() const = 0;
 
-    /// Follows the surfaces, which have been posed.
+    /// Follows the surfaces, which have been posed, for the frame that is drawn next.
     /// Synchronisation  Starts and ends without barrier.
-    virtual Status update(vk::Stream& stream) = 0;
+    virtual Status update(vk::Stream& stream, const Shot& shot) = 0;
 
     /// RasterArgs::geometry.
     virtual uint64_t geometry() const = 0;
 
-    /// What draws a run of faces: the vertex shader finds their places from gl_VertexIndex and
-    /// gl_InstanceIndex, and the faces at these from face_at().
-    virtual vk::Draw draw(uint32_t first_face, uint32_t face_count) const = 0;
+    /// RasterArgs::order of solid layers; 0: faces come by their numbers.
+    virtual uint64_t order() const { return 0; }
+
+    /// What draws these runs of a solid layer's faces, all that the shot has of it; or so many
+    /// blended ones as they are ordered, {{0, count}}. The vertex shader finds their places from
+    /// gl_VertexIndex and gl_InstanceIndex, and the faces at these from face_at().
+    virtual std::vector<vk::Draw> draws(Layer layer, std::span<const FaceRange> faces) const = 0;
+
+    /// Triangles that draws() makes.
+    virtual uint64_t triangles(Layer layer, std::span<const FaceRange> faces) const;
+
+    /// Pixels by which refined surfaces may be off; 0 where nobody set that.
+    virtual float tolerance() const { return 0; }
 
     /// How far refined surfaces may leave the box about the coarse ones, as a share of its
     /// diagonal.
@@ -51,5 +72,10 @@ Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const mesh::gpu::DeviceSurfaces& surfaces,
                                                           const Scene& scene, const Surfaces& rest,
                                                           const Refinement& refinement);
+
+/// Likewise, each edge with as many segments as LevelOfDetail gives it in the frame.
+Result<std::unique_ptr<VertexSource>> make_adaptive_source(
+    vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
+    const Surfaces& rest, const Refinement& refinement);
 
 }  // namespace aglow::render::gpu

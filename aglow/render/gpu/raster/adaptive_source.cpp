@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "aglow/refine/gpu/device_patches.h"
+#include "aglow/refine/lod.h"
+#include "aglow/refine/pattern.h"
+#include "aglow/render/gpu/raster/adaptive.vert.h"
+#include "aglow/render/gpu/raster/control_scene.h"
+#include "aglow/render/gpu/raster/face_bins.h"
+#include "aglow/render/gpu/raster/hidden_edges.h"
+#include "aglow/render/gpu/raster/vertex_source.h"
+#include "aglow/shared/raster_pattern.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace aglow::render::gpu {
+namespace {
+
+using refine::gpu::DevicePatches;
+using refine::gpu::DevicePattern;
+
+constexpr float kNearest = 1e-3f;  // of what is drawn: what is nearer gets no finer
+
+/// [face of the control scene] Are their backs never drawn?
+std::vector<uint8_t> one_sided_faces(const Scene& scene, const Surfaces& rest,
+                                     const ControlScene& control) {
+    std::vector<uint8_t> one_sided(control.topology.face_count(), 1);
+    for (const SurfacePart& part : rest.parts) {
+        if (part.material < 0 || !scene.materials[static_cast<size_t>(part.material)].double_sided)
+            continue;
+        for (uint32_t i = 0; i < part.triangle_count; ++i)
+            if (const uint32_t f = control.patch_of[part.first_triangle + i]; f != kNone)
+                one_sided[f] = 0;
+    }
+    return one_sided;
+}
+
+Viewpoint viewpoint_of(const View& view, float size) {
+    const shared::CameraView camera = view.shared_view();
+    Viewpoint eye;
+    eye.perspective = view.perspective;
+    eye.position = camera.to_world.t;
+    eye.direction = camera.to_world.z * -1.0f;
+    eye.pixels_per_metre = 0.5f * std::max(static_cast<float>(view.width) / view.half_width,
+                                           static_cast<float>(view.height) / view.half_height);
+    eye.nearest = size * kNearest;
+    return eye;
+}
+
+float size_of(const std::vector<vec3>& positions) {
+    Box box;
+    for (const vec3 p : positions) box.add(p);
+    return box.empty() ? 1 : length(box.size());
+}
+
+class AdaptiveSource : public VertexSource {
+public:
+    AdaptiveSource(const mesh::gpu::DeviceSurfaces& surfaces, ControlScene control,
+                   std::vector<uint8_t> one_sided, const LodOptions& options, DevicePatches patches,
+                   DevicePattern pattern)
+        : surfaces_(surfaces),
+          control_(std::move(control)),
+          one_sided_(std::move(one_sided)),
+          lod_(options),
+          patches_(std::move(patches)),
+          pattern_(std::move(pattern)) {}
+
+    Status make_buffers(vk::Stream& stream);
+    std::span<const uint32_t> vertex_shader() const override { return shaders::adaptive_vert; }
+    Status update(vk::Stream& stream, const Shot& shot) override;
+    uint64_t geometry() const override { return geometry_.address(); }
+    uint64_t order() const override { return faces_.address(); }
+    std::vector<vk::Draw> draws(Layer layer, std::span<const FaceRange> faces) const override;
+    uint64_t triangles(Layer layer, std::span<const FaceRange> faces) const override;
+    float tolerance() const override { return tolerance_; }
+    float overhang() const override { return 0.5f; }  // control points are a third of an edge off
+
+private:
+    void set_levels(vk::Stream& stream, std::span<const float> levels) const;
+    void choose_blended(const FaceSizes& sizes, std::span<const uint32_t> blended);
+
+    const mesh::gpu::DeviceSurfaces& surfaces_;
+    ControlScene control_;
+    std::vector<uint8_t> one_sided_;
+    LevelOfDetail lod_;
+    DevicePatches patches_;
+    DevicePattern pattern_;
+    vk::Buffer patch_of_, geometry_, faces_;
+    FaceBins bins_;
+    uint32_t blended_segments_ = 0;
+    uint64_t blended_triangles_ = 0;
+    float tolerance_ = 0;
+};
+
+Status AdaptiveSource::make_buffers(vk::Stream& stream) {
+    AG_TRY(patch_of_, vk::make_buffer_of(stream, std::span<const uint32_t>(control_.patch_of),
+                                         "patches of triangles"));
+    AG_TRY(faces_, stream.make_buffer(control_.patch_of.size() * sizeof(uint32_t),
+                                      "triangles by their patterns"));
+    AG_TRY(geometry_, stream.make_buffer(sizeof(shared::RasterAdaptive), "patches"));
+    const shared::RasterAdaptive geometry{patches_.mesh(), patch_of_.address(), patches_.levels(),
+                                          pattern_.steps.address()};
+    stream.upload(std::span(&geometry, 1), geometry_);
+    return {};
+}
+
+void AdaptiveSource::set_levels(vk::Stream& stream, std::span<const float> levels) const {
+    const Topology& topology = control_.topology;
+    std::vector<shared::PatchLevels> of_faces(topology.face_count());
+    for (size_t f = 0; f < of_faces.size(); ++f) {
+        const uint32_t first = topology.face_begin[f];
+        of_faces[f].inner = 1;
+        for (uint32_t i = 0; i < 3; ++i) of_faces[f].edge[i] = levels[topology.edge[first + i]];
+        of_faces[f].edge[3] = 1;
+    }
+    patches_.set_levels(stream, of_faces);
+}
+
+/// All blended faces are drawn with the largest of their patterns, so that they stay in order; what
+/// is beyond a face's own folds onto its rim.
+void AdaptiveSource::choose_blended(const FaceSizes& sizes, std::span<const uint32_t> blended) {
+    blended_segments_ = 1;
+    blended_triangles_ = 0;
+    for (const uint32_t face : blended) {
+        blended_segments_ = std::max<uint32_t>(blended_segments_, sizes.segments[face]);
+        blended_triangles_ += sizes.triangles[face];
+    }
+}
+
+Status AdaptiveSource::update(vk::Stream& stream, const Shot& shot) {
+    PatchControl control;
+    {
+        const vk::Stream::Scope scope(stream, "pose");
+        patches_.update(stream, surfaces_.positions(), surfaces_.normals());
+        AG_TRY(control, patches_.download_control(stream));
+    }
+    const vk::Stream::Scope scope(stream, "levels");
+    const Topology& topology = control_.topology;
+    const std::vector<uint8_t> hidden =
+        hidden_edges(topology, control, one_sided_, shot.projection);
+    const LevelOfDetail::Choice choice = lod_.choose(
+        topology, control, viewpoint_of(shot.view, size_of(control.positions)), {hidden, {}});
+    tolerance_ = choice.tolerance;
+    set_levels(stream, choice.levels);
+    const FaceSizes sizes = face_sizes(topology, control_.patch_of, choice.levels);
+    bins_ = face_bins(sizes, shot.layers);
+    choose_blended(sizes, shot.blended);
+    stream.upload(std::span<const uint32_t>(bins_.faces), faces_);
+    return {};
+}
+
+std::vector<vk::Draw> AdaptiveSource::draws(Layer layer, std::span<const FaceRange> faces) const {
+    const auto draw = [&](uint32_t segments, FaceRange places) {
+        return vk::Draw{0, 3 * segments * segments, places.first, places.count,
+                        &pattern_.triangles};
+    };
+    if (layer == Layer::blended) return {draw(blended_segments_, faces[0])};
+    std::vector<vk::Draw> draws;
+    for (const FaceBin& bin : bins_.bins[static_cast<size_t>(layer)])
+        draws.push_back(draw(bin.segments, bin.places));
+    return draws;
+}
+
+uint64_t AdaptiveSource::triangles(Layer layer, std::span<const FaceRange> /*faces*/) const {
+    return layer == Layer::blended ? blended_triangles_
+                                   : bins_.triangles[static_cast<size_t>(layer)];
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VertexSource>> make_adaptive_source(
+    vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
+    const Surfaces& rest, const Refinement& refinement) {
+    AG_TRY(ControlScene control, control_scene(scene, rest));
+    refine::gpu::DevicePatchInput input;
+    input.vertex_source = control.vertex_source;
+    input.corner_normal = control.corner_source;
+    input.tags = control.tags;
+    AG_TRY(DevicePatches patches,
+           DevicePatches::create(stream, control.topology, PatchOptions{}, input));
+    AG_TRY(DevicePattern pattern,
+           refine::gpu::upload_nested_pattern(stream, kMostAdaptiveSegments));
+    std::vector<uint8_t> one_sided = one_sided_faces(scene, rest, control);
+    LodOptions options;
+    options.tolerance = refinement.tolerance;
+    options.budget = refinement.budget;
+    auto source =
+        std::make_unique<AdaptiveSource>(surfaces, std::move(control), std::move(one_sided),
+                                         options, std::move(patches), std::move(pattern));
+    AG_CHECK(source->make_buffers(stream));
+    return source;
+}
+
+}  // namespace aglow::render::gpu
