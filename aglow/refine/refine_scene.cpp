@@ -8,12 +8,36 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <optional>
 
 namespace aglow {
 namespace {
 
 bool subdivides(RefineScheme scheme) {
     return scheme == RefineScheme::loop || scheme == RefineScheme::catmull_clark;
+}
+
+Status check_pattern(const RefineOptions& options) {
+    const PatternOptions& pattern = options.pattern;
+    if (subdivides(options.scheme) && (pattern.irregular || pattern.tolerance))
+        return fail(Errc::bad_argument,
+                    "only patches (pn, st, phong) have irregular patterns and a tolerance");
+    if (pattern.eye && !pattern.irregular)
+        return fail(Errc::bad_argument, "an eye draws the vertices of irregular patterns alone");
+    if (!pattern.tolerance) return {};
+    if (!(*pattern.tolerance > 0))
+        return fail(Errc::bad_argument,
+                    fmt::format("a tolerance of {} is not above 0", *pattern.tolerance));
+    if (options.displacement || options.field)
+        return fail(
+            Errc::bad_argument,
+            "the tolerance is that of the smooth surface: it says nothing of a displaced one");
+    if ((1 << options.level) > kMostAdaptiveSegments)
+        return fail(Errc::bad_argument,
+                    fmt::format("with a tolerance an edge has at most {} segments: take a lower "
+                                "level than {}",
+                                kMostAdaptiveSegments, options.level));
+    return {};
 }
 
 Status check_options(const RefineOptions& options) {
@@ -29,7 +53,7 @@ Status check_options(const RefineOptions& options) {
                     "take catmull-clark");
     if (options.displacement && options.field)
         return fail(Errc::bad_argument, "a surface is displaced by a map or by a function");
-    return {};
+    return check_pattern(options);
 }
 
 uint64_t triangle_count(const Scene& scene) {
@@ -69,6 +93,21 @@ Result<std::optional<HeightDisplacement>> own_heights(const Scene& scene, const 
     return std::optional<HeightDisplacement>();
 }
 
+/// The eye in the space of a mesh: of the node that shows it nearest.
+std::optional<vec3> eye_of_mesh(const Scene& scene, size_t mesh, vec3 eye) {
+    const std::vector<mat4> transforms = world_transforms(scene);
+    std::optional<vec3> nearest;
+    float distance = kInfinity;
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].mesh != static_cast<int>(mesh)) continue;
+        const vec3 place = transform_point(transforms[n], {0, 0, 0});
+        if (length(place - eye) >= distance) continue;
+        distance = length(place - eye);
+        nearest = transform_point(inverse_affine(transforms[n]), eye);
+    }
+    return nearest;
+}
+
 /// A mesh with heights of its own stays flat under them; creases and quads would change the
 /// surface that they stand on.
 Result<Mesh> refined_mesh(const Scene& scene, const Mesh& mesh, const RefineOptions& options,
@@ -97,11 +136,14 @@ Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,
     AG_CHECK(check_options(options));
     AG_CHECK(check_size(scene, options));
     Scene refined = scene;
+    std::optional<RefineOptions> seen;  // with the eye where the mesh sees it
+    if (options.pattern.eye) seen = options;
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         if (monitor.cancelled()) return fail(Errc::cancelled, "interrupted");
         monitor("refine", static_cast<double>(m) / static_cast<double>(scene.meshes.size()));
         std::vector<std::string> warnings;
-        auto mesh = refined_mesh(scene, scene.meshes[m], options, warnings);
+        if (seen) seen->pattern.eye = eye_of_mesh(scene, m, *options.pattern.eye);
+        auto mesh = refined_mesh(scene, scene.meshes[m], seen ? *seen : options, warnings);
         const std::string name = fmt::format("mesh {} \"{}\"", m, scene.meshes[m].name);
         if (!mesh)
             return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message),

@@ -29,6 +29,17 @@ struct HeightDisplacement {
     int texcoord = 0;  ///< set of texture coordinates
 };
 
+/// Where patches get their vertices, if not evenly.
+struct PatternOptions {
+    /// Irregular patterns: vertices are drawn to where the surface bends and, if there is an eye,
+    /// to what is near it.
+    bool irregular = false;
+    std::optional<vec3> eye;  ///< m, in the world at rest
+    /// Edges have only as many segments as keep them this near to the smooth surface, m; at most
+    /// 2^level.
+    std::optional<float> tolerance;
+};
+
 struct RefineOptions {
     RefineScheme scheme = RefineScheme::loop;
     int level = 1;       ///< 2^level segments to an edge
@@ -40,6 +51,7 @@ struct RefineOptions {
     /// Heights that are a function of place in the mesh's own space, at rest: sine or noise, in
     /// place of a map.
     std::optional<shared::Displacement> field;
+    PatternOptions pattern = {};  ///< patches
 };
 
 /// The finest level that refine_scene() makes of a scheme.
@@ -71,8 +83,9 @@ inline constexpr uint64_t kMostRefinedTriangles = uint64_t{1} << 27;
 ///
 /// Primitives keep their numbers; those without triangles stay as they are.
 /// Errors  bad_argument   level outside 1..finest_level(), limit or quads with a scheme that has
-///                        none, both kinds of displacement, more than kMostRefinedTriangles (how
-///                        many)
+///                        none, both kinds of displacement, a pattern that the
+///                        scheme has not or a tolerance that displacement would break, more than
+///                        kMostRefinedTriangles (how many)
 ///         those of read_height_map()
 ///         out_of_memory, cancelled
 /// Repeat  same bits for any number of threads.

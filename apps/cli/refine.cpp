@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/refine/refine_scene.h"
 
+#include "aglow/render/camera.h"
 #include "aglow/scene/load.h"
 #include "aglow/scene/rewrite_gltf.h"
 #include "command.h"
@@ -30,6 +31,9 @@ struct Options {
     bool creases_at_normals = false;
     bool quads = false;
     bool round_corners = false;
+    bool irregular = false;
+    std::string camera;
+    std::optional<double> tolerance;
     DisplaceOption displace;
     std::optional<double> displace_scale, displace_bias;
 };
@@ -87,6 +91,12 @@ Table table(Options& o) {
         {"--quads", flag(&o.quads), "", "join pairs of triangles to quads first; not with loop"},
         {"--round-corners", flag(&o.round_corners), "",
          "subdivision: round the corners of open meshes too"},
+        {"--pattern", choice<bool>(&o.irregular, {{"even", false}, {"irregular", true}}), "NAME",
+         "pn, st, phong: vertices lie evenly (default), or irregular: denser where it bends"},
+        {"--camera", text(&o.camera), "N|NAME|auto",
+         "--pattern irregular: denser near this camera of the scene, too"},
+        {"--tolerance", number_above(&o.tolerance, 0), "METRES",
+         "pn, st, phong: no more segments to an edge than keep it this near to the curve"},
         {"--displace", parsed(&o.displace, parse_displace), "HEIGHTS",
          "height map over TEXCOORD_0: .png (16 bit: 0..1), .exr or .hdr; or by place, "
          "sin:A,FX,FY,FZ or noise:A,F"},
@@ -106,7 +116,16 @@ Status check(const Options& o) {
     if (!has_map(o) && (o.displace_scale || o.displace_bias))
         return fail(Errc::bad_argument,
                     "--displace-scale and --displace-bias go with --displace FILE");
+    if (!o.camera.empty() && !o.irregular)
+        return fail(Errc::bad_argument, "--camera goes with --pattern irregular");
     return check_output(o.output, {".glb", ".gltf"}, o.input);
+}
+
+/// Where the camera is at rest.
+Result<vec3> eye_of(const Scene& scene, const std::string& camera) {
+    AG_TRY(const std::optional<View> view, camera_view(scene, camera, 1, 1, -1));
+    if (view) return transform_point(view->to_world, {0, 0, 0});
+    return fail(Errc::bad_argument, "--camera auto: the scene has no camera");
 }
 
 Result<RefineOptions> refine_options(const Options& o) {
@@ -118,6 +137,8 @@ Result<RefineOptions> refine_options(const Options& o) {
     if (o.crease) options.control.crease_angle = static_cast<float>(*o.crease) * (kPi / 180);
     options.control.crease_at_normals = o.creases_at_normals;
     options.control.quads = o.quads;
+    options.pattern.irregular = o.irregular;
+    if (o.tolerance) options.pattern.tolerance = static_cast<float>(*o.tolerance);
     if (const auto* field = std::get_if<shared::Displacement>(&o.displace)) options.field = *field;
     if (!has_map(o)) return options;
     AG_TRY(HeightMap map, read_height_map(std::get<std::filesystem::path>(o.displace)));
@@ -141,8 +162,11 @@ Result<int> run(const Options& options, Console& console) {
     AG_CHECK(check(options));
     const Stopwatch total;
     AG_CHECK(console.go_on("load"));
-    AG_TRY(const RefineOptions refine, refine_options(options));
+    AG_TRY(RefineOptions refine, refine_options(options));
     AG_TRY(const Scene scene, load_scene(options.input));
+    if (!options.camera.empty()) {
+        AG_TRY(refine.pattern.eye, eye_of(scene, options.camera));
+    }
     const double loaded = total.seconds();
     auto refined = refine_scene(scene, refine, console.monitor());
     if (!refined && refined.error().context.empty())

@@ -143,6 +143,23 @@ class Refinement(harness.AglowTest):
         self.assertGreater(bounds["high"][1], 0.05)
         self.assertLess(bounds["high"][1], 0.5)
 
+    def test_a_tolerance_saves_triangles_where_nothing_bends(self):
+        report = self.json_of("refine", "plane.gltf", "-o", "flat.glb", "--scheme", "pn",
+                              "--tolerance", "0.001", "--level", "5")
+        self.assertEqual(report["refined"]["triangles"], 2)
+        self.run_aglow("scene", "chess", "-o", "chess.glb")
+        counts = []
+        for more in ([], ["--tolerance", "0.0002"], ["--pattern", "irregular"],
+                     ["--pattern", "irregular", "--camera", "auto"]):
+            report = self.json_of("refine", "chess.glb", "-o", f"chess{len(counts)}.glb",
+                                  "--scheme", "pn", "--level", "3", *more)
+            counts.append(report["refined"]["triangles"])
+        self.assertEqual(counts[2:], [counts[0]] * 2)
+        self.assertLess(counts[1], counts[0] / 4)
+        self.assertEqual(validate([self.dir / f"chess{i}.glb" for i in range(4)]), "")
+        self.assertNotEqual((self.dir / "chess2.glb").read_bytes(),
+                            (self.dir / "chess3.glb").read_bytes())
+
     def test_errors_say_what_to_do_and_leave_no_file(self):
         refine = ("refine", "plane.gltf", "-o", "none.glb")
         crowd(self.dir / "crowd.gltf", self.dir / "plane.gltf")
@@ -158,6 +175,14 @@ class Refinement(harness.AglowTest):
             ((*refine, "--displace", "sin:1,2,3"), 1, "--displace"),
             ((*refine, "--displace", "noise:1,x"), 1, "--displace"),
             ((*refine, "--displace", "noise:1,2", "--displace-scale", "2"), 1, "--displace FILE"),
+            ((*refine, "--pattern", "irregular"), 1, "pn, st, phong"),
+            ((*refine, "--tolerance", "0.1"), 1, "pn, st, phong"),
+            ((*refine, "--scheme", "pn", "--tolerance", "0"), 1, "--tolerance"),
+            ((*refine, "--scheme", "pn", "--tolerance", "1", "--displace", "noise:1,2"), 1,
+             "displaced"),
+            ((*refine, "--scheme", "pn", "--camera", "auto"), 1, "--pattern irregular"),
+            ((*refine, "--scheme", "pn", "--pattern", "irregular", "--camera", "auto"), 1,
+             "no camera"),
             ((*refine, "--crease", "200"), 1, "--crease"),
             ((*refine, "--displace", "absent.png"), 2, "absent.png"),
             (("refine", "absent.glb", "-o", "none.glb"), 2, "absent.glb"),

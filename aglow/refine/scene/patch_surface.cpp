@@ -2,8 +2,10 @@
 #include "aglow/core/parallel.h"
 #include "aglow/refine/patches.h"
 #include "aglow/refine/pattern.h"
+#include "aglow/refine/scene/pattern_choice.h"
 #include "aglow/refine/scene/refined_surface.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -97,10 +99,11 @@ public:
                 return dot(rest.corner_normals[h], rest.corner_normals[other]) > kSameNormal;
             });
         AG_TRY(cut, cut_by(topology, control_.seams.vertex, groups));
-        const int segments = 1 << options.level;
-        AG_TRY(order, Tessellation::uniform(cut, segments));
-        AG_TRY(whole_, Tessellation::uniform(topology, segments));
-        AG_TRY(seams_, Tessellation::uniform(control_.seams, segments));
+        choose_pattern(options, rest);
+        AG_TRY(order, tessellation(cut, 1 << options.level));
+        AG_TRY(whole_, tessellation(topology, 1 << options.level));
+        AG_TRY(seams_, tessellation(control_.seams, 1 << options.level));
+        order.density = density_;
         whole = refined_sources(cut, order, topology, whole_);
         seams = refined_sources(cut, order, control_.seams, seams_);
         triangles = std::move(order.triangles);
@@ -125,7 +128,56 @@ public:
         const Tessellation& layer_order = is_whole ? whole_ : seams_;
         const auto columns = static_cast<size_t>(width);
         refined.resize(layer_order.vertex_count() * columns);
-        LinearAttributes(topology, layer_order).evaluate(control, columns, refined);
+        if (density_.empty() && levels_.empty())
+            LinearAttributes(topology, layer_order).evaluate(control, columns, refined);
+        else
+            AG_CHECK(interpolate_flat(topology, layer, control, columns, refined));
+        return {};
+    }
+
+private:
+    void choose_pattern(const RefineOptions& options, const Shape& rest) {
+        if (!options.pattern.irregular && !options.pattern.tolerance) return;
+        PatchControl control;
+        patches_->update({rest.positions, rest.corner_normals, tags_}, control);
+        const Topology& topology = control_.topology;
+        if (options.pattern.irregular)
+            density_ = vertex_density(topology, control, options.pattern.eye);
+        if (const auto& tolerance = options.pattern.tolerance)
+            levels_ =
+                edge_levels(topology, control, *tolerance, static_cast<float>(1 << options.level));
+    }
+
+    /// Of the control mesh, or of one cut from it.
+    Result<Tessellation> tessellation(const Topology& topology, int segments) const {
+        if (levels_.empty()) return Tessellation::uniform(topology, segments);
+        std::vector<float> levels;
+        for (const uint32_t h : topology.edge_half)
+            levels.push_back(levels_[control_.topology.edge[h]]);
+        return Tessellation::adaptive(topology, levels);
+    }
+
+    /// Values in place of positions, three columns at a time, over flat patches.
+    Status interpolate_flat(const Topology& topology, Layer layer, std::span<const float> control,
+                            size_t width, std::span<float> refined) const {
+        AG_TRY(const Patches flat,
+               Patches::create(topology, {PatchShape::flat, NormalField::linear}));
+        Tessellation order_there = layer == Layer::whole ? whole_ : seams_;
+        for (uint32_t v = 0; v < topology.vertex_count() && !density_.empty(); ++v)
+            order_there.density.push_back(
+                density_[layer == Layer::whole ? v : control_.seam_to_vertex[v]]);
+        const std::vector<vec3> normals(topology.half_edge_count(), vec3{0, 1, 0});
+        std::vector<vec3> values(topology.vertex_count()), there(order_there.vertex_count());
+        PatchControl points;
+        for (size_t column = 0; column < width; column += 3) {
+            const size_t used = std::min<size_t>(3, width - column);
+            for (size_t v = 0; v < values.size(); ++v)
+                std::copy_n(control.data() + v * width + column, used, &values[v].x);
+            flat.update({values, normals, {}}, points);
+            flat.evaluate(points, order_there, there);
+            for (size_t v = 0; v < there.size(); ++v)
+                std::copy_n(&there[v].x, used, refined.data() + v * width + column);
+        }
         return {};
     }
 
@@ -134,6 +186,8 @@ private:
     std::vector<shared::ShapeTags> tags_;
     std::optional<Patches> patches_;
     Tessellation whole_, seams_;
+    std::vector<float> density_;  ///< [vertex of the control mesh]; empty: even
+    std::vector<float> levels_;   ///< [edge of the control mesh]; empty: all the same
 };
 
 }  // namespace
