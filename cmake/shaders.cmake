@@ -7,7 +7,7 @@ find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 function(aglow_shaders stage)
-    set(kinds comp vert tesc tese geom frag)
+    set(kinds comp vert tesc tese geom mesh frag)
     list(TRANSFORM kinds PREPEND ${PROJECT_SOURCE_DIR}/aglow/${stage}/*.)
     file(GLOB_RECURSE shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${kinds})
     set(headers)

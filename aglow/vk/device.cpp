@@ -59,6 +59,7 @@ std::vector<const char*> extensions_of(const PhysicalDevice& physical) {
         names.push_back(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
     if (physical.drawing.transform_feedback)
         names.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    if (physical.drawing.mesh_shader) names.push_back(VK_EXT_MESH_SHADER_EXTENSION_NAME);
     return names;
 }
 
@@ -69,6 +70,9 @@ Result<VkDevice> create_device(const PhysicalDevice& physical) {
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{};
     feedback.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT;
     feedback.transformFeedback = VK_TRUE;
+    VkPhysicalDeviceMeshShaderFeaturesEXT mesh{};
+    mesh.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
+    mesh.meshShader = VK_TRUE;
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroups{};
     subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES;
     subgroups.subgroupSizeControl = VK_TRUE;
@@ -96,6 +100,7 @@ Result<VkDevice> create_device(const PhysicalDevice& physical) {
     add(physical.full_subgroups, subgroups);
     add(drawing.draws, rendering);
     add(drawing.transform_feedback, feedback);
+    add(drawing.mesh_shader, mesh);
 
     float priority = 1;
     VkDeviceQueueCreateInfo queue{};
@@ -160,6 +165,7 @@ void Device::load_drawing() {
     load(captures, drawing_.bind_capture, "vkCmdBindTransformFeedbackBuffersEXT");
     load(captures, drawing_.begin_capture, "vkCmdBeginTransformFeedbackEXT");
     load(captures, drawing_.end_capture, "vkCmdEndTransformFeedbackEXT");
+    load(has.mesh_shader, drawing_.draw_groups, "vkCmdDrawMeshTasksEXT");
 }
 
 Status Device::check_drawing() const {

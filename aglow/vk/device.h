@@ -43,6 +43,7 @@ struct DrawingCommands {
     PFN_vkCmdBindTransformFeedbackBuffersEXT bind_capture = nullptr;
     PFN_vkCmdBeginTransformFeedbackEXT begin_capture = nullptr;
     PFN_vkCmdEndTransformFeedbackEXT end_capture = nullptr;
+    PFN_vkCmdDrawMeshTasksEXT draw_groups = nullptr;
 };
 
 /// One Vulkan device with one queue, which computes, and draws where the device can. Outlives

@@ -5,6 +5,7 @@
 #include "aglow/vk/render_target.h"
 #include "aglow/vk/stream.h"
 #include "aglow/vk/testing/drawn.frag.h"
+#include "aglow/vk/testing/drawn.mesh.h"
 #include "aglow/vk/testing/drawn.vert.h"
 #include "aglow/vk/testing/kernels.h"
 #include "aglow/vk/testing/patch.tesc.h"
@@ -33,6 +34,14 @@ struct DrawnArgs {
     uint64_t corners = 0;
     Color color{1, 1, 1, 1};
     std::array<float, 2> step{};
+};
+
+/// Push constants of drawn.mesh and drawn.frag.
+struct DrawnGroupsArgs {
+    uint32_t first_group = 0, count = 0;
+    Color color{1, 1, 1, 1};
+    std::array<float, 2> step{};
+    uint64_t corners = 0;
 };
 
 constexpr uint32_t kSize = 64;
@@ -286,6 +295,37 @@ TEST_CASE("a tessellated triangle covers what it covered whole") {
         pictures[i] = easel.read();
     }
     CHECK(pictures[0] == pictures[1]);
+}
+
+TEST_CASE("groups of a mesh shader draw what vertices would, however the draw is cut") {
+    TestDevice device;
+    if (!device) return;
+    if (!device->physical().drawing.mesh_shader) {
+        MESSAGE("skipped: the GPU has no mesh shaders");
+        return;
+    }
+    Easel easel(device, 4);
+    GraphicsShaders groups;
+    groups.mesh = shaders::drawn_mesh;
+    groups.fragment = shaders::drawn_frag;
+    GraphicsPipeline by_groups = easel.pipeline({}, groups), by_vertices = easel.pipeline();
+    const std::vector<Corner> corners{{-1, -0.96f, 0.5f, 1}, {-1, -1, 0.5f, 1},
+                                      {-0.9f, -1, 0.5f, 1},  {-0.9f, 0.2f, 0.25f, 2},
+                                      {-1, 0, 0.25f, 2},     {-0.9f, 0, 0.25f, 2}};
+    const uint64_t address = easel.corners(corners);
+    const std::array<float, 2> step{1.8f / 40000, 0.7f / 40000};
+    const int before = device->submit_count();
+    std::array<std::vector<Color>, 2> pictures;
+    easel.stream.clear(easel.target, kBlack);
+    easel.stream.draw(by_vertices, easel.target, DrawnArgs{address, kRed, step}, {0, 6, 0, 40000});
+    pictures[0] = easel.read();
+    easel.stream.clear(easel.target, kBlack);
+    easel.stream.draw_groups(by_groups, easel.target, DrawnGroupsArgs{0, 2, kRed, step, address},
+                             80000);
+    pictures[1] = easel.read();
+    CHECK(pictures[0] == pictures[1]);
+    CHECK(count_of(pictures[1], {2, 0, 0, 2}) > 100);
+    CHECK(device->submit_count() > before + 2);
 }
 
 TEST_CASE("captured vertices arrive in the order of their primitives, however a draw is cut") {

@@ -46,6 +46,7 @@ Status check_features(const Device& device, std::string_view name, const Graphic
     if (!shaders.geometry.empty() && !has.geometry_shader) lacks = "geometry shaders";
     if (!shaders.tessellation_control.empty() && !has.tessellation_shader)
         lacks = "tessellation shaders";
+    if (!shaders.mesh.empty() && !has.mesh_shader) lacks = "mesh shaders";
     bool captures =
         state.target.color == VK_FORMAT_UNDEFINED && state.target.depth == VK_FORMAT_UNDEFINED;
     if (captures && !has.transform_feedback) lacks = "transform feedback";
@@ -210,15 +211,17 @@ Result<GraphicsPipeline> GraphicsPipeline::create(const Gpu& gpu, std::string_vi
     std::string doing = fmt::format("compiling pipeline \"{}\"", name);
     VkDevice device = gpu->get();
     Stages stages(state.constants);
-    const std::array<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>, 5> all{{
+    const std::array<std::pair<VkShaderStageFlagBits, std::span<const uint32_t>>, 6> all{{
         {VK_SHADER_STAGE_VERTEX_BIT, shaders.vertex},
         {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaders.tessellation_control},
         {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaders.tessellation_evaluation},
         {VK_SHADER_STAGE_GEOMETRY_BIT, shaders.geometry},
+        {VK_SHADER_STAGE_MESH_BIT_EXT, shaders.mesh},
         {VK_SHADER_STAGE_FRAGMENT_BIT, shaders.fragment},
     }};
     for (const auto& [stage, spirv] : all) AG_CHECK(stages.add(device, stage, spirv, doing));
-    AG_ASSERT(stages.flags() & VK_SHADER_STAGE_VERTEX_BIT, "a pipeline has a vertex shader");
+    AG_ASSERT(shaders.vertex.empty() != shaders.mesh.empty(),
+              "a pipeline has either a vertex or a mesh shader");
 
     GraphicsPipeline pipeline;
     pipeline.gpu_ = gpu;

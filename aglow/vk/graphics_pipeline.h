@@ -20,6 +20,7 @@ struct GraphicsShaders {
     std::span<const uint32_t> vertex;
     std::span<const uint32_t> tessellation_control, tessellation_evaluation;
     std::span<const uint32_t> geometry;
+    std::span<const uint32_t> mesh;      ///< instead of all above: see Stream::draw_groups()
     std::span<const uint32_t> fragment;  ///< none: no colours are drawn
 };
 
@@ -30,7 +31,7 @@ enum class Blend : uint8_t {
 
 struct GraphicsState {
     TargetFormat target;  ///< no images: nothing is drawn, Stream::capture() keeps the vertices
-    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;  ///< not of mesh shaders
     uint32_t patch_points = 3;                   ///< of VK_PRIMITIVE_TOPOLOGY_PATCH_LIST
     VkCullModeFlags cull = VK_CULL_MODE_NONE;    ///< fronts run counter-clockwise as seen
     VkCompareOp nearer = VK_COMPARE_OP_GREATER;  ///< which depths are drawn over which

@@ -162,7 +162,7 @@ void examine_drawing(PhysicalDevice& device, bool version_1_3, const Extensions&
     drawing.geometry_shader = all.features.geometryShader;
     drawing.tessellation_shader = all.features.tessellationShader;
     drawing.transform_feedback = feedback.transformFeedback && drawing.geometry_shader;
-    drawing.mesh_shader = mesh.meshShader && mesh.taskShader;
+    drawing.mesh_shader = mesh.meshShader;
     drawing.shader_stores =
         all.features.vertexPipelineStoresAndAtomics && all.features.fragmentStoresAndAtomics;
     drawing.sample_shading = all.features.sampleRateShading;

@@ -77,6 +77,15 @@ public:
         static_assert(std::is_trivially_copyable_v<Args> && sizeof(Args) <= 128);
         capture_bytes(pipeline, std::as_bytes(std::span(&args, 1)), draw, capture);
     }
+    /// The same by `groups` groups of a mesh shader. The first member of `args` is first_group, as
+    /// of run().
+    template <class Args>
+    void draw_groups(const GraphicsPipeline& pipeline, const RenderTarget& target, Args args,
+                     uint64_t groups) {
+        static_assert(std::is_trivially_copyable_v<Args> && sizeof(Args) <= 128);
+        static_assert(std::is_same_v<decltype(args.first_group), uint32_t>);
+        draw_groups_bytes(pipeline, target, std::as_bytes(std::span(&args, 1)), groups);
+    }
     /// Sets all of the target. A target is cleared before it is first drawn into.
     void clear(const RenderTarget& target, const std::array<float, 4>& color, float depth = 0);
     /// Writes the colours row by row from the top to the buffer, of several samples their mean.
@@ -137,6 +146,8 @@ private:
     void run_bytes(const Kernel& kernel, std::span<const std::byte> args, uint64_t groups);
     void draw_bytes(const GraphicsPipeline& pipeline, const RenderTarget& target,
                     std::span<const std::byte> args, const Draw& draw);
+    void draw_groups_bytes(const GraphicsPipeline& pipeline, const RenderTarget& target,
+                           std::span<const std::byte> args, uint64_t groups);
     void capture_bytes(const GraphicsPipeline& pipeline, std::span<const std::byte> args,
                        const Draw& draw, const Capture& capture);
 

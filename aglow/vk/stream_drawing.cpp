@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace aglow::vk {
 
@@ -151,6 +152,25 @@ void Stream::draw_bytes(const GraphicsPipeline& pipeline, const RenderTarget& ta
     };
     state_->recorder->run(
         {pipeline.name(), pipeline.rate(), work.groups, work.grain, UINT32_MAX, true}, record);
+}
+
+void Stream::draw_groups_bytes(const GraphicsPipeline& pipeline, const RenderTarget& target,
+                               std::span<const std::byte> args, uint64_t groups) {
+    AG_ASSERT(pipeline.target() == target.format(), "pipelines are made for their targets");
+    AG_ASSERT(groups <= UINT32_MAX, "first_group has 32 bits");
+    std::array<std::byte, 128> push{};
+    std::copy(args.begin(), args.end(), push.begin());
+    const DrawingCommands& commands = gpu()->drawing();
+    auto record = [&](RecordTarget& into, uint64_t first, uint64_t count) {
+        uint32_t first_group = static_cast<uint32_t>(first);
+        std::memcpy(push.data(), &first_group, sizeof first_group);
+        begin_drawing(into, commands.begin, target, nullptr);
+        bind(into, pipeline, std::span<const std::byte>(push.data(), args.size()));
+        commands.draw_groups(into.commands, static_cast<uint32_t>(count), 1, 1);
+    };
+    Work work{pipeline.name(), pipeline.rate(), groups};
+    work.draws = true;
+    state_->recorder->run(work, record);
 }
 
 void Stream::capture_bytes(const GraphicsPipeline& pipeline, std::span<const std::byte> args,
