@@ -383,6 +383,12 @@ private:
 
 }  // namespace
 
+bool has_own_normals(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.primitives, [](const Primitive& p) {
+        return !p.triangles.empty() && p.source_vertex.empty();
+    });
+}
+
 Result<ControlMesh> make_control_mesh(const Mesh& mesh, const ControlOptions& options) {
     try {
         return Welder(mesh, options).weld();

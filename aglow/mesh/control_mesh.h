@@ -47,6 +47,9 @@ struct ControlMesh {
     std::vector<std::string> warnings;  ///< `repairs` in words
 };
 
+/// Does the file have normals for it? Where it has none, loading gives flat ones.
+bool has_own_normals(const Mesh& mesh);
+
 /// Welds a mesh of a scene. Creases and corners tagged in the file (docs/formats/creases.md) are
 /// kept whatever the options say.
 /// Quads  The two triangles must share the diagonal with its texture coordinates and colours, be

@@ -8,8 +8,10 @@ namespace aglow {
 struct Refinement {
     enum class Kind : uint8_t {
         none,
-        pn,      ///< curved PN triangles
-        tagged,  ///< the same, shaped by the file's _SHARPNESS, _TENSION and _BIAS
+        pn,             ///< curved PN triangles
+        tagged,         ///< the same, shaped by the file's _SHARPNESS, _TENSION and _BIAS
+        loop,           ///< Loop's subdivision surface, of which triangles are the control mesh
+        catmull_clark,  ///< Catmull and Clark's, of triangles; levels from 1 on
         /// `tagged`, every edge as fine as it takes to look smooth in the frame
         automatic,
     };
@@ -42,13 +44,16 @@ struct RasterOptions {
 /// the nearest middle.
 ///
 /// Refined meshes are welded first, each for itself: triangles that meet in position meet without
-/// gaps where their normals agree, and along creases of the file's normals where those differ too.
+/// gaps, whether their normals agree or not. Curved triangles follow the file's normals, or smooth
+/// ones where it has none; subdivision surfaces stand at their limit, and are sharp where
+/// refine_scene() keeps them so. Texture coordinates and colours are linear on every triangle.
 ///
 /// Automatic levels go from frame to frame: see LevelOfDetail. They make triangles of the coarse
 /// mesh only finer, so that a budget below those is not kept.
 ///
-/// Errors  bad_argument (samples < 1, level or tolerance out of range), unsupported (the GPU cannot
-///         draw), out_of_memory, device_lost.
+/// Errors  bad_argument (samples < 1, level or tolerance out of range, more than 2^31 refined
+///         points), unsupported (the GPU cannot draw), out_of_memory (of a level, how much it
+///         needs), device_lost.
 /// Repeat  same bits every run on one device, of the same frames in the same order.
 Result<std::unique_ptr<FrameRenderer>> make_raster_frame_renderer(
     const Gpu& gpu, const Footage& footage, const RasterOptions& options = {});

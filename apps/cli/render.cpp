@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -69,29 +70,41 @@ Result<Size> parse_size(const std::string& text) {
     return Size{static_cast<int>(width), static_cast<int>(height)};
 }
 
+/// What follows "auto:".
+Result<float> parse_tolerance(const std::string& text) {
+    AG_TRY(const double pixels, parse_number(text));
+    if (!(pixels >= kFinestTolerance && pixels <= kCoarsestTolerance))
+        return fail(Errc::bad_argument, fmt::format("auto:PIXELS goes from {} to {}, not {}",
+                                                    kFinestTolerance, kCoarsestTolerance, pixels));
+    return static_cast<float>(pixels);
+}
+
 Result<Refinement> parse_refinement(const std::string& text) {
+    using Kind = Refinement::Kind;
     if (text == "none") return Refinement{};
+    if (text == "auto") return Refinement{.kind = Kind::automatic};
+    const std::map<std::string, Kind> kinds = {{"pn", Kind::pn},
+                                               {"st", Kind::tagged},
+                                               {"loop", Kind::loop},
+                                               {"catmull-clark", Kind::catmull_clark},
+                                               {"auto", Kind::automatic}};
     const size_t colon = text.find(':');
-    const std::string kind = text.substr(0, colon);
-    if (kind == "auto") {
-        Refinement refinement{.kind = Refinement::Kind::automatic};
-        if (colon == std::string::npos) return refinement;
-        AG_TRY(const double pixels, parse_number(text.substr(colon + 1)));
-        if (!(pixels >= kFinestTolerance && pixels <= kCoarsestTolerance))
-            return fail(Errc::bad_argument,
-                        fmt::format("auto:PIXELS goes from {} to {}, not {}", kFinestTolerance,
-                                    kCoarsestTolerance, pixels));
-        refinement.tolerance = static_cast<float>(pixels);
+    const auto known = kinds.find(text.substr(0, colon));
+    if (known == kinds.end() || colon == std::string::npos)
+        return fail(Errc::bad_argument,
+                    fmt::format("\"{}\" is no refinement; there is none, pn:N, st:N, loop:N, "
+                                "catmull-clark:N, auto and auto:PIXELS",
+                                text));
+    Refinement refinement{.kind = known->second};
+    const std::string value = text.substr(colon + 1);
+    if (refinement.kind == Kind::automatic) {
+        AG_TRY(refinement.tolerance, parse_tolerance(value));
         return refinement;
     }
-    if (colon == std::string::npos || (kind != "pn" && kind != "st"))
-        return fail(Errc::bad_argument,
-                    fmt::format("\"{}\" is no refinement; there is none, pn:N, st:N, auto and "
-                                "auto:PIXELS",
-                                text));
-    AG_TRY(const int64_t level, parse_whole(text.substr(colon + 1), 0, kMostRefinement));
-    return Refinement{kind == "pn" ? Refinement::Kind::pn : Refinement::Kind::tagged,
-                      static_cast<int>(level)};
+    const int64_t least = refinement.kind == Kind::catmull_clark ? 1 : 0;
+    AG_TRY(const int64_t level, parse_whole(value, least, kMostRefinement));
+    refinement.level = static_cast<int>(level);
+    return refinement;
 }
 
 Table table(Options& o) {
@@ -129,10 +142,11 @@ Table table(Options& o) {
                                   {"grid2", Accel::grid2},
                                   {"bvh", Accel::bvh}}),
          "NAME", "how a GPU finds hits: auto (default), grid, grid2 (two-level) or bvh"},
-        {"--refine", parsed(&o.refine, parse_refinement), "none|pn:N|st:N|auto[:PIXELS]",
-         fmt::format("curved triangles with --engine raster, 2^N segments to an edge: pn, or st "
-                     "with the file's _SHARPNESS, _TENSION and _BIAS; auto: each edge as fine as "
-                     "it takes to be within PIXELS (default {}) of its curve (default none)",
+        {"--refine", parsed(&o.refine, parse_refinement), "none|KIND:N|auto[:PIXELS]",
+         fmt::format("finer surfaces with --engine raster, 2^N segments to an edge: pn, curved "
+                     "triangles; st, the same with the file's _SHARPNESS, _TENSION and _BIAS; loop "
+                     "or catmull-clark, subdivision; auto: st, each edge as fine as it takes to be "
+                     "within PIXELS (default {}) of its curve (default none)",
                      Refinement{}.tolerance)},
         {"--budget", whole(&o.budget, 1, kMostBudget), "N",
          "triangles of a frame at most with --refine auto, whose PIXELS grow until they fit; no "

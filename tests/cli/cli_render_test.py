@@ -134,6 +134,25 @@ class Pictures(harness.AglowTest):
             self.run_aglow("render", "plane.gltf", "-o", "n.png", "--engine", "raster", *arguments,
                            code=1, says=word)
 
+    def test_subdivided_triangles_are_those_of_refine(self):
+        gpus = self.gpus()
+        if not gpus:
+            self.skipTest("no GPU")
+        picture = ("--size", "48x32", "--sun", "0,60,1000", "--engine", "raster", "--device",
+                   gpus[0])
+        for scheme in ("loop", "catmull-clark"):
+            report = self.json_of("render", "plane.gltf", "-o", "on-gpu.exr", *picture, "--refine",
+                                  f"{scheme}:2")
+            self.assertIn("refine", [p["pass"] for p in report["passes"]])
+            self.run_aglow("refine", "plane.gltf", "-o", "fine.glb", "--scheme", scheme, "--level",
+                           "2", "--limit")
+            self.run_aglow("render", "fine.glb", "-o", "on-cpu.exr", *picture)
+            self.run_aglow("compare", "on-gpu.exr", "on-cpu.exr", "--max-rmse", "0.5%")
+        render = ("render", "plane.gltf", "-o", "none.exr")
+        for wrong in ("loop", "loop:8", "loop:-1", "catmull-clark:0", "butterfly:2"):
+            self.run_aglow(*render, *picture, "--refine", wrong, code=1, says="--refine")
+        self.run_aglow(*render, "--refine", "loop:2", code=1, says="--engine raster")
+
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",
                      "--rays", "256", "--device", "gpu:llvmpipe")

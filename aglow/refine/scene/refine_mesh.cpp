@@ -80,13 +80,7 @@ private:
         return tags;
     }
 
-    /// Flat normals are what loading gives a primitive that has none.
-    bool has_normals() const {
-        return std::ranges::any_of(mesh_.primitives, [](const Primitive& p) {
-            return !p.triangles.empty() && p.source_vertex.empty();
-        });
-    }
-    bool makes_normals() const { return options_.control.crease_angle || !has_normals(); }
+    bool makes_normals() const { return options_.control.crease_angle || !has_own_normals(mesh_); }
 
     vec3 normal_at(VertexOf v) const { return mesh_.primitives[v.primitive].normals[v.vertex]; }
 

@@ -1,58 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/core/assert.h"
+#include "aglow/refine/creases.h"
 #include "aglow/refine/scene/refined_surface.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 namespace aglow::refine {
 namespace {
 
-/// How sharp a vertex is by the edges that meet there: while a third of them is sharp it stays.
-std::vector<float> sharpness_by_edges(const Topology& t) {
-    std::vector<std::array<float, 3>> sharpest(t.vertex_count(), {0, 0, 0});
-    const auto add = [&](uint32_t vertex, float sharpness) {
-        std::array<float, 3>& three = sharpest[vertex];
-        for (float& s : three)
-            if (sharpness > s) std::swap(s, sharpness);
-    };
-    for (uint32_t e = 0; e < t.edge_count(); ++e) {
-        const uint32_t h = t.edge_half[e];
-        const float sharpness = t.twin[h] == kNone ? kSharp : t.edge_sharpness[e];
-        add(t.vertex[h], sharpness);
-        add(t.end(h), sharpness);
-    }
-    std::vector<float> third;
-    for (const auto& three : sharpest) third.push_back(three[2]);
-    return third;
-}
-
 /// Boundaries of a mesh of texture coordinates stay straight: its corners are sharp along them.
 Topology with_straight_boundaries(Topology mesh) {
     for (uint32_t v = 0; v < mesh.vertex_count(); ++v)
         if (mesh.on_boundary(v)) mesh.vertex_sharpness[v] = kSharp;
-    return mesh;
-}
-
-// A boundary that turns by more than this (75 degrees) has a corner there. Faces do not tell: a
-// square of two triangles has corners of one and of two.
-constexpr float kTurn = 75 * kPi / 180;
-
-/// By how much the boundary turns at a vertex of it, radians.
-float boundary_turn(const Topology& mesh, std::span<const vec3> positions, uint32_t v) {
-    uint32_t h = mesh.vertex_half[v];
-    const vec3 out = positions[mesh.end(h)] - positions[v];
-    while (mesh.twin[mesh.previous(h)] != kNone) h = mesh.twin[mesh.previous(h)];
-    const vec3 in = positions[v] - positions[mesh.vertex[mesh.previous(h)]];
-    return std::atan2(length(cross(in, out)), dot(in, out));
-}
-
-Topology with_corners(Topology mesh, std::span<const vec3> positions, Corners corners) {
-    for (uint32_t v = 0; v < mesh.vertex_count() && corners == Corners::sharp; ++v)
-        if (mesh.on_boundary(v) && boundary_turn(mesh, positions, v) > kTurn)
-            mesh.vertex_sharpness[v] = kSharp;
     return mesh;
 }
 
@@ -80,7 +41,7 @@ public:
         AG_ASSERT(whole_order.vertex_count() == whole_->vertex_count(), "the order of Subdivision");
         whole = refined_sources(cut, order, topology, whole_order);
         seams = refined_sources(cut, order, control_.seams, order_of(control_.seams));
-        AG_CHECK(build_creases(groups, whole_order));
+        AG_CHECK(build_creases(whole_order));
         number_faces(CutNumbers(cut, order, topology, whole_order));
         return {};
     }
@@ -111,31 +72,21 @@ private:
         return subdivided_order(topology, subdivision_.scheme, subdivision_.level);
     }
 
-    /// What gives the normals on both sides of creases: the mesh cut open there. Its boundaries
-    /// follow the same curves as the creases, so that only normals are taken from it.
-    Status build_creases(std::span<const uint32_t> groups, const Tessellation& whole_order) {
+    /// What gives the normals on both sides of creases.
+    Status build_creases(const Tessellation& whole_order) {
         const Topology& topology = topology_;
-        if (std::ranges::none_of(topology.edge_sharpness, [](float s) { return s >= kSharp; }))
-            return {};
-        AG_TRY(Topology creased, cut_by(topology, topology.vertex, groups));
-        const std::vector<float> third = sharpness_by_edges(topology);
-        std::vector<uint32_t> copies(topology.vertex_count(), 0);
-        for (uint32_t v = 0; v < creased.vertex_count(); ++v) {
-            const uint32_t of = topology.vertex[creased.vertex_half[v]];
-            creased.vertex_sharpness[v] = std::max(creased.vertex_sharpness[v], third[of]);
-            ++copies[of];
-        }
-        AG_TRY(creases_, Subdivision::create(creased, subdivision_));
-        of_crease_ = refined_sources(cut, order, creased, order_of(creased));
-        // A crease that ends inside the surface fades: there the surface has one normal.
-        std::vector<bool> parted(whole_order.vertex_count(), false);
-        for (uint32_t v = 0; v < topology.vertex_count(); ++v) parted[v] = copies[v] > 1;
+        AG_TRY(const CreaseSides sides, crease_sides(topology));
+        if (sides.empty()) return {};
+        AG_TRY(creases_, Subdivision::create(sides.mesh, subdivision_));
+        of_crease_ = refined_sources(cut, order, sides.mesh, order_of(sides.mesh));
+        std::vector<bool> parted = sides.parted;
+        parted.resize(whole_order.vertex_count(), false);
         for (uint32_t e = 0; e < topology.edge_count(); ++e)
             for (uint32_t v = whole_order.edge_first[e]; v < whole_order.edge_first[e + 1]; ++v)
                 parted[v] = topology.edge_sharpness[e] >= kSharp;
         for (uint32_t v = 0; v < vertex_count(); ++v)
             if (parted[whole[v]]) parted_.push_back(v);
-        creased_half_ = creased.vertex_half;
+        creased_half_ = sides.mesh.vertex_half;
         return {};
     }
 

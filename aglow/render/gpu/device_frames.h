@@ -18,7 +18,7 @@ class DeviceFrameRenderer : public FrameRenderer {
 public:
     explicit DeviceFrameRenderer(vk::Stream stream) : stream_(std::move(stream)) {}
     Result<DrawnFrame> draw(double time, const View& view, const Monitor& monitor) final;
-    std::string device() const final { return stream_.gpu()->info().name; }
+    std::string device() const final { return gpu()->info().name; }
 
 protected:
     /// A frame without times. The view is not empty.

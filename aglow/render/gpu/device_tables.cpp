@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/render/gpu/device_tables.h"
 
-#include "aglow/vk/device.h"
-
-#include <fmt/format.h>
+#include "aglow/render/gpu/device_room.h"
 
 #include <algorithm>
 #include <array>
@@ -48,18 +46,6 @@ private:
 uint64_t geometry_bytes(const Surfaces& surfaces) {
     return surfaces.positions.size() * 2 * sizeof(vec3) +
            surfaces.triangles.size() * (sizeof(uvec3) + 2 * sizeof(shared::Triangle));
-}
-
-Status check_room(const vk::Device& device, uint64_t needed) {
-    const uint64_t all = device.info().memory_bytes;
-    const uint64_t free = all - std::min(all, device.bytes_in_use());
-    if (needed <= free) return {};
-    constexpr double kMebibyte = 1024.0 * 1024.0;
-    return fail(Errc::out_of_memory,
-                fmt::format("the scene needs at least {:.0f} MiB on {}, where {:.0f} MiB are free; "
-                            "render it with --device cpu",
-                            static_cast<double>(needed) / kMebibyte, device.info().name,
-                            static_cast<double>(free) / kMebibyte));
 }
 
 std::vector<float> linear_of_srgb() {
@@ -139,7 +125,8 @@ Result<DeviceTables> DeviceTables::create(vk::Stream& stream, const TableSource&
     }
     if (source.resting) add(source.resting->pixels, tables.resting_, "resting light");
 
-    AG_CHECK(check_room(*stream.gpu(), uploads.bytes() + geometry_bytes(source.surfaces)));
+    AG_CHECK(check_room(*stream.gpu(), uploads.bytes() + geometry_bytes(source.surfaces),
+                        "the scene needs", "render it with --device cpu"));
     AG_TRY(tables.buffers_, uploads.run(stream));
     return tables;
 }

@@ -4,6 +4,7 @@
 #include "aglow/refine/pattern.h"
 #include "aglow/render/gpu/raster/adaptive.vert.h"
 #include "aglow/render/gpu/raster/control_scene.h"
+#include "aglow/render/gpu/raster/corner_normals.h"
 #include "aglow/render/gpu/raster/face_bins.h"
 #include "aglow/render/gpu/raster/hidden_edges.h"
 #include "aglow/render/gpu/raster/vertex_source.h"
@@ -55,12 +56,13 @@ float size_of(const std::vector<vec3>& positions) {
 class AdaptiveSource : public VertexSource {
 public:
     AdaptiveSource(const mesh::gpu::DeviceSurfaces& surfaces, ControlScene control,
-                   std::vector<uint8_t> one_sided, const LodOptions& options, DevicePatches patches,
-                   DevicePattern pattern)
+                   std::vector<uint8_t> one_sided, const LodOptions& options, CornerNormals normals,
+                   DevicePatches patches, DevicePattern pattern)
         : surfaces_(surfaces),
           control_(std::move(control)),
           one_sided_(std::move(one_sided)),
           lod_(options),
+          normals_(std::move(normals)),
           patches_(std::move(patches)),
           pattern_(std::move(pattern)) {}
 
@@ -82,6 +84,7 @@ private:
     ControlScene control_;
     std::vector<uint8_t> one_sided_;
     LevelOfDetail lod_;
+    CornerNormals normals_;
     DevicePatches patches_;
     DevicePattern pattern_;
     vk::Buffer patch_of_, geometry_, faces_;
@@ -129,8 +132,9 @@ void AdaptiveSource::choose_blended(const FaceSizes& sizes, std::span<const uint
 Status AdaptiveSource::update(vk::Stream& stream, const Shot& shot) {
     PatchControl control;
     {
-        const vk::Stream::Scope scope(stream, "pose");
-        patches_.update(stream, surfaces_.positions(), surfaces_.normals());
+        const vk::Stream::Scope scope(stream, "refine");
+        patches_.update(stream, surfaces_.positions(),
+                        normals_.update(stream, surfaces_.positions(), surfaces_.normals()));
         AG_TRY(control, patches_.download_control(stream));
     }
     const vk::Stream::Scope scope(stream, "levels");
@@ -173,7 +177,8 @@ Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     AG_TRY(ControlScene control, control_scene(scene, rest));
     refine::gpu::DevicePatchInput input;
     input.vertex_source = control.vertex_source;
-    input.corner_normal = control.corner_source;
+    AG_TRY(CornerNormals normals, CornerNormals::create(stream, control));
+    input.corner_normal = normals.number();
     input.tags = control.tags;
     AG_TRY(DevicePatches patches,
            DevicePatches::create(stream, control.topology, PatchOptions{}, input));
@@ -183,9 +188,9 @@ Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     LodOptions options;
     options.tolerance = refinement.tolerance;
     options.budget = refinement.budget;
-    auto source =
-        std::make_unique<AdaptiveSource>(surfaces, std::move(control), std::move(one_sided),
-                                         options, std::move(patches), std::move(pattern));
+    auto source = std::make_unique<AdaptiveSource>(
+        surfaces, std::move(control), std::move(one_sided), options, std::move(normals),
+        std::move(patches), std::move(pattern));
     AG_CHECK(source->make_buffers(stream));
     return source;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/render/gpu/raster/control_scene.h"
 
+#include "aglow/refine/creases.h"
+
 #include <map>
 #include <utility>
 
@@ -110,6 +112,7 @@ Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest) {
         auto known = controls.find({part.mesh, mirrored});
         if (known == controls.end()) {
             AG_TRY(ControlMesh made, make_control_mesh(mirrored ? turned_about(mesh) : mesh));
+            made.topology = with_corners(std::move(made.topology), made.positions, Corners::sharp);
             known = controls.emplace(std::pair{part.mesh, mirrored}, std::move(made)).first;
         }
         const ControlMesh& control = known->second;
@@ -121,6 +124,7 @@ Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest) {
         for (const VertexOf at : control.corners)
             result.corner_source.push_back(placement.first_vertex[at.primitive] + at.vertex);
         append(result.topology, control.topology);
+        result.lacks_normals.resize(result.topology.face_count(), !has_own_normals(mesh));
         tagged = tagged || has_tags(mesh);
     }
     if (!tagged) result.tags.clear();

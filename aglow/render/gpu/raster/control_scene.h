@@ -11,13 +11,15 @@
 namespace aglow::render::gpu {
 
 /// All meshes of a scene where they are placed, as one coarse surface to refine: meshes are welded
-/// each for itself, and their placements do not touch.
+/// each for itself, and their placements do not touch. Corners of boundaries are sharp, as
+/// with_corners() has them.
 struct ControlScene {
     Topology topology;
     std::vector<uint32_t> vertex_source;  ///< [vertex] of Surfaces
     std::vector<uint32_t> corner_source;  ///< [half-edge] vertex of Surfaces
     std::vector<uint32_t> patch_of;       ///< [triangle of Surfaces] its face here; kNone: none
     std::vector<shared::ShapeTags> tags;  ///< [vertex]; empty: no primitive has any
+    std::vector<bool> lacks_normals;      ///< [face] the file has none for its mesh
 };
 
 /// Faces have the corners of their triangle in `rest`, in its order: mirrored placements are turned

@@ -120,3 +120,19 @@ TEST_CASE("parts out of sight are left out, and neighbours drawn together") {
     CHECK(parts.has(Layer::opaque));
     CHECK_FALSE(parts.has(Layer::blended));
 }
+
+TEST_CASE("a part that its mesh's others may pull into sight is drawn") {
+    Quads quads;
+    quads.floor(diffuse({1, 1, 1}), 0.1f);
+    aglow::testing::add_quad(quads.scene.meshes[0].primitives.emplace_back(), {20, 0, 0},
+                             {21, 0, 0}, {21, 1, 0}, {20, 1, 0});
+    const Surfaces rest = pose(quads.scene);
+    const std::vector<mat4> transforms(2);
+    for (const Reach reach : {Reach::part, Reach::mesh}) {
+        const PartList parts(quads.scene, rest, reach);
+        const Projection projection = projection_of(looking_down(false), parts.bounds(transforms));
+        const auto layers = parts.visible(transforms, projection, 0);
+        const uint32_t count = reach == Reach::mesh ? 4 : 2;
+        CHECK(layers[static_cast<size_t>(Layer::opaque)] == std::vector<FaceRange>{{0, count}});
+    }
+}

@@ -28,6 +28,10 @@ constexpr float kMostHalf = 65504;    // the largest number of 16 bits
 
 using Layers = std::array<std::vector<FaceRange>, kSolidLayers>;
 
+bool is_subdivision(Refinement::Kind kind) {
+    return kind == Refinement::Kind::loop || kind == Refinement::Kind::catmull_clark;
+}
+
 /// Pipelines of the layers that a scene has.
 struct Pipelines {
     std::array<std::optional<vk::GraphicsPipeline>, kSolidLayers> solid;
@@ -44,6 +48,7 @@ public:
 
 private:
     Status make_footage(const Surfaces& rest);
+    Status make_source(const Surfaces& rest, const Refinement& refinement);
     Status make_pipelines();
     Result<vk::GraphicsPipeline> surface_pipeline(Layer layer) const;
     Status reserve_target(const View& view);
@@ -132,13 +137,28 @@ Status RasterRenderer::make_pipelines() {
     return {};
 }
 
+Status RasterRenderer::make_source(const Surfaces& rest, const Refinement& refinement) {
+    const mesh::gpu::DeviceSurfaces& surfaces = footage_->surfaces();
+    if (refinement.kind == Refinement::Kind::none) {
+        AG_TRY(source_, make_plain_source(stream(), surfaces));
+    } else if (refinement.kind == Refinement::Kind::automatic) {
+        AG_TRY(source_, make_adaptive_source(stream(), surfaces, scene_, rest, refinement));
+    } else if (is_subdivision(refinement.kind)) {
+        AG_TRY(source_, make_subdivision_source(stream(), surfaces, scene_, rest, refinement));
+    } else {
+        AG_TRY(source_, make_pattern_source(stream(), surfaces, scene_, rest, refinement));
+    }
+    return {};
+}
+
 Status RasterRenderer::prepare(const RasterOptions& options) {
     if (options.samples < 1)
         return fail(Errc::bad_argument, fmt::format("{} samples of a pixel", options.samples));
     const Refinement& refinement = options.refinement;
-    if (refinement.level < 0 || refinement.level > kMostRefinement)
-        return fail(Errc::bad_argument, fmt::format("refinement level {} is not in 0..{}",
-                                                    refinement.level, kMostRefinement));
+    const int least = refinement.kind == Refinement::Kind::catmull_clark ? 1 : 0;
+    if (refinement.level < least || refinement.level > kMostRefinement)
+        return fail(Errc::bad_argument, fmt::format("refinement level {} is not in {}..{}",
+                                                    refinement.level, least, kMostRefinement));
     if (!(refinement.tolerance >= kFinestTolerance && refinement.tolerance <= kCoarsestTolerance))
         return fail(Errc::bad_argument,
                     fmt::format("a tolerance of {} pixels is not in {}..{}", refinement.tolerance,
@@ -149,16 +169,8 @@ Status RasterRenderer::prepare(const RasterOptions& options) {
     format_ = vk::hdr_format(*gpu(), samples);
     const Surfaces rest = pose(scene_, -1, lit_ ? &lit_->atlas : nullptr);
     AG_CHECK(make_footage(rest));
-    parts_.emplace(scene_, rest);
-    if (refinement.kind == Refinement::Kind::none) {
-        AG_TRY(source_, make_plain_source(stream(), footage_->surfaces()));
-    } else if (refinement.kind == Refinement::Kind::automatic) {
-        AG_TRY(source_,
-               make_adaptive_source(stream(), footage_->surfaces(), scene_, rest, refinement));
-    } else {
-        AG_TRY(source_,
-               make_pattern_source(stream(), footage_->surfaces(), scene_, rest, refinement));
-    }
+    parts_.emplace(scene_, rest, is_subdivision(refinement.kind) ? Reach::mesh : Reach::part);
+    AG_CHECK(make_source(rest, refinement));
     AG_CHECK(make_pipelines());
     return stream().finish();
 }

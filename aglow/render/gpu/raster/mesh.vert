@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/render/gpu/raster/raster.glsl"
 
+invariant gl_Position;  // faces of several materials meet
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 barycentrics;  // on the face

@@ -18,9 +18,16 @@ const Primitive& primitive_of(const Scene& scene, const SurfacePart& part) {
     return mesh.primitives[static_cast<size_t>(part.primitive)];
 }
 
-Box node_box(const Scene& scene, const SurfacePart& part) {
+Box node_box(const Scene& scene, const SurfacePart& part, Reach reach) {
     Box box;
-    for (const vec3 p : primitive_of(scene, part).positions) box.add(p);
+    const auto add = [&](const Primitive& primitive) {
+        for (const vec3 p : primitive.positions) box.add(p);
+    };
+    if (reach == Reach::part) {
+        add(primitive_of(scene, part));
+    } else {
+        for (const Primitive& p : scene.meshes[static_cast<size_t>(part.mesh)].primitives) add(p);
+    }
     return box;
 }
 
@@ -38,7 +45,7 @@ Box grown(const Box& box, float share) {
 
 }  // namespace
 
-PartList::PartList(const Scene& scene, const Surfaces& rest) {
+PartList::PartList(const Scene& scene, const Surfaces& rest, Reach reach) {
     const auto motions = mesh::gpu::classify_parts(scene, rest.parts);
     for (size_t i = 0; i < rest.parts.size(); ++i) {
         const SurfacePart& part = rest.parts[i];
@@ -51,7 +58,7 @@ PartList::PartList(const Scene& scene, const Surfaces& rest) {
         made.stiff = motions[i] != mesh::gpu::PartMotion::deforming &&
                      !mesh::gpu::is_skinned(scene, part) &&
                      primitive_of(scene, part).targets.empty();
-        made.box = made.stiff ? node_box(scene, part) : world_box(rest, part);
+        made.box = made.stiff ? node_box(scene, part, reach) : world_box(rest, part);
         has_[static_cast<size_t>(made.layer)] = true;
         parts_.push_back(made);
         if (made.layer != Layer::blended) continue;

@@ -26,10 +26,16 @@ struct FaceRange {
     bool operator==(const FaceRange&) const = default;
 };
 
+/// What a part's surface is made from, between which it lies.
+enum class Reach : uint8_t {
+    part,  ///< its own vertices
+    mesh   ///< those of its mesh's other parts too: subdivided surfaces
+};
+
 /// The parts of a scene by layer, and where they are.
 class PartList {
 public:
-    PartList(const Scene& scene, const Surfaces& rest);
+    PartList(const Scene& scene, const Surfaces& rest, Reach reach = Reach::part);
 
     /// Runs of faces of each solid layer that may be seen; parts that deform are always taken to
     /// be. `overhang`: see VertexSource.

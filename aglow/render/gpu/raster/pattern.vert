@@ -9,6 +9,7 @@ const uint kPatchDisplacement = kNoDisplacement;
 const uint kPatchCorners = 3u;
 #include "aglow/refine/gpu/patch_surface.glsl"
 
+invariant gl_Position;  // faces of several materials meet
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 barycentrics;  // on the face

@@ -3,8 +3,7 @@
 #include "aglow/render/raster.h"
 
 #include "aglow/core/testing/demand.h"
-#include "aglow/render/compare.h"
-#include "aglow/render/testing/stage.h"
+#include "aglow/render/testing/raster.h"
 #include "aglow/scene/builtin.h"
 #include "aglow/vk/testing/test_device.h"
 
@@ -19,18 +18,6 @@ using namespace aglow;
 using namespace aglow::render::testing;
 
 namespace {
-
-Image rastered(const Gpu& gpu, const Footage& footage, const View& view, double time = -1,
-               RasterOptions options = {}) {
-    const auto renderer = demand(make_raster_frame_renderer(gpu, footage, options));
-    return demand(renderer->draw(time, view, {})).luminance;
-}
-
-View auto_view(const Scene& scene, double time, int width, int height) {
-    const Surfaces surfaces = pose(scene, time);
-    const RayScene rays = demand(RayScene::create(scene, surfaces));
-    return demand(choose_view(scene, surfaces, rays, "auto", width, height, time));
-}
 
 constexpr RaysOptions kFine{.samples = 256, .reflections = 0};
 
@@ -311,43 +298,6 @@ TEST_CASE("masks are cut as finely as edges") {
     CHECK(drawn.at(2, 2).x == doctest::Approx(kUnlitWhite / 2));  // the mask ends in its middle
 }
 
-namespace {
-
-/// An octahedron with the normals of a sphere, welded or with its corners split as files have them.
-Scene octahedron(bool mirrored) {
-    Quads quads;
-    Scene& scene = quads.scene;
-    Primitive p;
-    p.material = 0;
-    scene.materials.push_back(unlit({1, 1, 1}));
-    const std::array<vec3, 6> tips{
-        {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-    for (uint32_t i = 0; i < 8; ++i) {
-        const size_t a = i % 4, b = (i + 1) % 4;
-        const std::array<size_t, 3> corners{a, i < 4 ? b : size_t{5}, i < 4 ? size_t{4} : b};
-        const auto first = static_cast<uint32_t>(p.positions.size());
-        for (const size_t corner : corners) {
-            p.positions.push_back(tips[corner]);
-            p.normals.push_back(tips[corner]);
-        }
-        p.triangles.push_back({first, first + 1, first + 2});
-    }
-    Node node;
-    node.mesh = 0;
-    if (mirrored) node.scale = {-1, 1, 1};
-    scene.meshes.push_back({"", {p}, {}});
-    scene.nodes.push_back(node);
-    return scene;
-}
-
-double covered(const Image& image) {
-    double sum = 0;
-    for (const vec3 pixel : image.pixels) sum += static_cast<double>(pixel.x / kUnlitWhite);
-    return sum / static_cast<double>(image.pixels.size());
-}
-
-}  // namespace
-
 TEST_CASE("a refined octahedron has the outline of its curved triangles, mirrored too") {
     vk::TestDevice device;
     if (!device) return;
@@ -414,6 +364,24 @@ TEST_CASE("a picture is the same every time, and of any size in turn") {
     std::vector<std::string> passes;
     for (const PassTime& pass : again.seconds) passes.push_back(pass.pass);
     CHECK(passes == std::vector<std::string>{"other", "pose", "draw", "read", "host"});
+}
+
+TEST_CASE("renderers keep their device open") {
+    vk::TestDevice device;
+    if (!device) return;
+    LitRoom room;
+    const Footage footage{room.quads.scene, &room.lit, {.samples = 1}};
+    Gpu gpu = demand(open_gpu(device->info().name));
+    auto raster = demand(make_raster_frame_renderer(gpu, footage));
+    auto rays = demand(make_gpu_frame_renderer(gpu, footage, Accel::automatic));
+    const std::weak_ptr<vk::Device> open = gpu;
+    gpu.reset();
+    CHECK(demand(raster->draw(-1, room_view(8, 8), {})).luminance.width == 8);
+    CHECK(demand(rays->draw(-1, room_view(8, 8), {})).luminance.width == 8);
+    raster.reset();
+    CHECK_FALSE(open.expired());
+    rays.reset();
+    CHECK(open.expired());
 }
 
 TEST_CASE("what cannot be drawn is an error, and nothing leaks") {

@@ -65,6 +65,14 @@ public:
 Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
                                                         const mesh::gpu::DeviceSurfaces& surfaces);
 
+/// Subdivision surfaces that the triangles are control meshes of, meshes welded: their limit at all
+/// points of a level. `rest` is what `surfaces` was made from; `surfaces` must outlive it.
+/// Errors  bad_argument (more than 2^31 points), out_of_memory (says how much the level needs),
+///         unsupported, device_lost.
+Result<std::unique_ptr<VertexSource>> make_subdivision_source(
+    vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
+    const Surfaces& rest, const Refinement& refinement);
+
 /// Curved patches over the triangles, meshes welded, a pattern of 2^level segments drawn for each.
 /// `rest` is what `surfaces` was made from; `surfaces` must outlive it.
 /// Errors  out_of_memory, device_lost.
