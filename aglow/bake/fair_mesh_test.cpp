@@ -69,7 +69,130 @@ Scene scene_of(Primitive primitive) {
     return scene;
 }
 
+/// A square of edge 2 at the height z, raised by `slope` along x, seen from above unless turned.
+Primitive square(float z, float slope = 0, bool turned = false) {
+    Primitive p;
+    for (const vec2 at : {vec2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        p.positions.push_back({at.x, at.y, z + slope * at.x});
+    p.normals.assign(4, normalize(vec3{-slope, 0, 1}) * (turned ? -1.0f : 1.0f));
+    p.triangles = {{0, 1, 2}, {0, 2, 3}};
+    if (turned) p.triangles = {{0, 2, 1}, {0, 3, 2}};
+    return p;
+}
+
+/// Maps of a square in the plane z = 0 that has become of these.
+struct BakedSquare {
+    CoarseSurface coarse;
+    Maps maps;
+    int width = 0, height = 0;
+};
+
+BakedSquare baked_square(std::vector<Primitive> dense) {
+    BakedSquare result;
+    Mesh mesh = mesh_of(square(0));
+    auto coarse = make_coarse_surface(mesh, 32, result.width, result.height);
+    REQUIRE(coarse);
+    result.coarse = std::move(*coarse);
+    Mesh layers;
+    layers.primitives = std::move(dense);
+    auto maps = bake_maps(result.coarse, layers, result.width, result.height, 1, {});
+    REQUIRE(maps);
+    result.maps = std::move(*maps);
+    return result;
+}
+
 }  // namespace
+
+TEST_CASE("heights are those of the nearest front, on either side") {
+    const auto check = [](std::vector<Primitive> dense, float height) {
+        const BakedSquare baked = baked_square(std::move(dense));
+        CHECK(baked.maps.missed == 0);
+        for (const float h : baked.maps.heights) CHECK(h == doctest::Approx(height).epsilon(1e-4));
+    };
+    check({square(0.3f), square(-0.1f)}, -0.1f);
+    check({square(0.1f), square(-0.3f)}, 0.1f);
+    check({square(0.05f, 0, true), square(0.2f)}, 0.2f);  // the first is seen from behind
+    check({square(-0.05f, 0, true), square(-0.2f)}, -0.2f);
+}
+
+TEST_CASE("a dense slope is its normal in every texel, as the coarse triangle's axes have it") {
+    const BakedSquare baked = baked_square({square(0, 0.5f)});
+    const vec3 n = normalize(vec3{-0.5f, 0, 1});
+    const vec4 tangent = baked.coarse.tangents[0];
+    const vec3 along{tangent.x, tangent.y, tangent.z}, up = cross(vec3{0, 0, 1}, along) * tangent.w;
+    const std::array expected = {dot(n, along), dot(n, up), n.z};
+    size_t slopes = 0;
+    for (size_t i = 0; i < baked.maps.heights.size(); ++i) {
+        const uint8_t* texel = &baked.maps.normals[3 * i];
+        if (texel[2] == 255) continue;  // beside the chart
+        ++slopes;
+        for (size_t c = 0; c < 3; ++c)
+            CHECK(std::fabs(float(texel[c]) - 127.5f * (1 + expected[c])) < 0.501f);
+    }
+    CHECK(slopes > baked.maps.heights.size() / 2);
+}
+
+TEST_CASE("where rays meet nothing, heights are those of the texels around") {
+    Primitive frame;  // a square with a square hole of half its edge
+    for (const float size : {1.0f, 0.5f})
+        for (const vec2 at : {vec2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            frame.positions.push_back({size * at.x, size * at.y, 0.1f});
+    frame.normals.assign(8, {0, 0, 1});
+    for (uint32_t i = 0; i < 4; ++i) {
+        const uint32_t j = (i + 1) % 4;
+        frame.triangles.push_back({i, j, 4 + j});
+        frame.triangles.push_back({i, 4 + j, 4 + i});
+    }
+    const BakedSquare baked = baked_square({frame});
+    CHECK(baked.maps.missed == doctest::Approx(0.25).epsilon(0.1));
+    for (const float h : baked.maps.heights) CHECK(h == doctest::Approx(0.1).epsilon(1e-4));
+}
+
+TEST_CASE("tangents run along u, and with the normal they give what points up in the image") {
+    Mesh mesh = mesh_of(sphere(1));
+    int width = 0, height = 0;
+    const auto coarse = make_coarse_surface(mesh, 128, width, height);
+    REQUIRE(coarse);
+    const Topology& topology = coarse->control.topology;
+    for (uint32_t h = 0; h < topology.half_edge_count(); h += 3) {
+        const auto at = [&](uint32_t i) {
+            return coarse->control.positions[topology.vertex[h + i]];
+        };
+        const vec3 ab = at(1) - at(0), ac = at(2) - at(0), normal = normalize(cross(ab, ac));
+        const vec2 b = coarse->uvs[h + 1] - coarse->uvs[h], c = coarse->uvs[h + 2] - coarse->uvs[h];
+        const float area = b.x * c.y - b.y * c.x;
+        const vec3 by_u = (ab * c.y - ac * b.y) / area, by_v = (ac * b.x - ab * c.x) / area;
+        for (uint32_t i = 0; i < 3; ++i) {
+            const vec4 t = coarse->tangents[h + i];
+            const vec3 along{t.x, t.y, t.z};
+            CHECK(dot(along, by_u) > 0);
+            CHECK(dot(cross(normal, along) * t.w, by_v) < 0);
+        }
+    }
+}
+
+TEST_CASE("heights reach as far as the coarse surface has moved") {
+    // A ball of four to eight triangles: the middles of its faces have moved by far more than a
+    // tenth of the diagonal.
+    const auto fair =
+        make_fair(scene_of(sphere(20)), {.ratio = 1e-3f, .map_size = 64, .samples = 0});
+    REQUIRE(fair);
+    const FairMesh& mesh = fair->meshes.at(0);
+    CHECK(mesh.triangles <= 8);
+    float highest = 0;
+    for (const vec3 texel : mesh.displacement.pixels) highest = std::max(highest, texel.x);
+    CHECK(highest > 0.12f * mesh.diagonal);
+    CHECK(mesh.missed < 0.01);
+}
+
+TEST_CASE("maps have four texels for every dense vertex, at a power of two") {
+    // 8 n^2 triangles: 124 and 130 texels wide, before they are rounded up.
+    for (const auto& [n, width] : {std::pair(22, 128), std::pair(23, 256)}) {
+        const auto fair = make_fair(scene_of(sphere(n)), {.ratio = 0.1f, .samples = 0});
+        REQUIRE(fair);
+        CHECK(fair->meshes.at(0).width == width);
+    }
+}
 
 TEST_CASE("heights from an octahedron to the sphere round it have their closed form") {
     const Mesh dense = mesh_of(sphere(96));

@@ -332,7 +332,7 @@ private:
                 options_.crease_angle &&
                 angle(normals[t.face[h]], normals[t.face[twin]]) > *options_.crease_angle;
             if (steep || (options_.crease_at_normals && normals_differ(h, twin)))
-                t.edge_sharpness[e] = std::max(t.edge_sharpness[e], kSharp);
+                t.edge_sharpness[e] = kSharp;  // no tag can ask for more
         }
     }
 

@@ -285,6 +285,63 @@ TEST_CASE("no quad is made of triangles that fold, thin out, turn inwards or dif
     CHECK(control(mesh_of({textured}), options).quad_count == 0);
 }
 
+TEST_CASE("quads bend by 40 degrees at most, and their corners by 40 from a right angle") {
+    ControlOptions options;
+    options.quads = true;
+    const auto quads_of = [&](const std::vector<vec3>& corners, std::vector<uvec3> triangles) {
+        return control(mesh_of({primitive(corners, std::move(triangles))}), options).quad_count;
+    };
+    const std::vector<uvec3> in_order = {{0, 1, 2}, {0, 2, 3}}, in_another = {{0, 2, 3}, {0, 1, 2}};
+    const auto rhombus = [](float degrees) {
+        const float c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+        return std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {1 + c, s, 0}, {c, s, 0}};
+    };
+    CHECK(quads_of(rhombus(50.2f), in_another) == 1);
+    CHECK(quads_of(rhombus(49.8f), in_another) == 0);
+    // Exporters list the halves of their quads one after the other: corners by 60 degrees.
+    CHECK(quads_of(rhombus(30.2f), in_order) == 1);
+    CHECK(quads_of(rhombus(29.8f), in_order) == 0);
+    // A square whose last corner turns about the diagonal out of the plane.
+    const auto folded = [](float degrees) {
+        const float c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+        return std::vector<vec3>{
+            {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {(1 - c) / 2, (1 + c) / 2, s * std::sqrt(0.5f)}};
+    };
+    CHECK(quads_of(folded(39.8f), in_another) == 1);
+    CHECK(quads_of(folded(40.2f), in_another) == 0);
+}
+
+TEST_CASE("triangles in an exporter's order make a quad, though others would make a better one") {
+    ControlOptions options;
+    options.quads = true;
+    // A parallelogram of the first two triangles, a rectangle of the last two.
+    const auto leaning = [&](float height) {
+        const ControlMesh c = control(
+            mesh_of(
+                {primitive({{0, 0, 0}, {0, -height, 0}, {4, 0, 0}, {4, height, 0}, {0, height, 0}},
+                           {{0, 1, 2}, {0, 2, 3}, {3, 4, 0}})}),
+            options);
+        CHECK(c.quad_count == 1);
+        return c.topology.face_size(0) == 4;
+    };
+    CHECK(leaning(4 * std::tan(19.8f * kPi / 180)));
+    CHECK_FALSE(leaning(4 * std::tan(20.2f * kPi / 180)));
+}
+
+TEST_CASE("normals of less than a degree between them are no crease") {
+    ControlOptions options;
+    options.crease_at_normals = true;
+    const auto creases = [&](float degrees) {
+        Primitive other = unit_quad();
+        for (vec3& p : other.positions) p.x += 1;
+        for (vec3& n : other.normals)
+            n = {std::sin(degrees * kPi / 180), 0, std::cos(degrees * kPi / 180)};
+        return sharp_count(control(mesh_of({unit_quad(), other}), options).topology);
+    };
+    CHECK(creases(0.99f) == 0);
+    CHECK(creases(1.01f) == 1);
+}
+
 TEST_CASE("meshes without triangles are empty control meshes") {
     CHECK(control(mesh_of({})).topology.face_count() == 0);
     CHECK(control(mesh_of({Primitive{}, unit_quad()})).face_primitive ==

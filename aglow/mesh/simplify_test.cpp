@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -109,6 +110,11 @@ TEST_CASE("primitives of a mesh still meet after each was simplified") {
         const vec3 b = control->positions[control->topology.end(h)];
         CHECK_FALSE((a.x == 1 && b.x == 1));
     }
+    // Whatever is asked for, all 31 vertices between them stay, on both sides.
+    const auto coarsest = simplify(mesh_of({left, right}), {.ratio = 1e-6f});
+    REQUIRE(coarsest);
+    for (const Primitive& p : coarsest->mesh.primitives)
+        CHECK(std::ranges::count_if(p.positions, [](vec3 at) { return at.x == 1; }) == 31);
 }
 
 TEST_CASE("a ratio of 1 keeps every triangle") {
@@ -127,6 +133,22 @@ TEST_CASE("a bound on the error keeps more triangles") {
     REQUIRE(free);
     CHECK(bounded->triangles > 4 * free->triangles);
     CHECK(bounded->error <= 1e-4f);
+    // A bound that the last collapse of the other just misses.
+    const float bound = 0.99f * free->error;
+    const auto tight = simplify(dense, {.ratio = 0.01f, .max_error = bound});
+    REQUIRE(tight);
+    CHECK(tight->error <= bound);
+}
+
+TEST_CASE("closed surfaces keep at least the four triangles of the simplest one") {
+    const Mesh ball = mesh_of({mesh::testing::sphere(12, 8)});
+    const auto coarse = simplify(ball, {.ratio = 1e-6f});
+    REQUIRE(coarse);
+    CHECK(coarse->triangles >= 4);
+    CHECK(coarse->triangles < 20);
+    const auto control = make_control_mesh(coarse->mesh);
+    REQUIRE(control);
+    for (const uint32_t twin : control->topology.twin) CHECK(twin != kNone);
 }
 
 TEST_CASE("meshes of nothing, of points in one place and of one triangle stay what they are") {

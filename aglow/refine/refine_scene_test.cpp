@@ -161,6 +161,24 @@ TEST_CASE("creases keep a cube a cube, with a normal for each side") {
     }
 }
 
+TEST_CASE("creases that a file tags keep a cube a cube, and no tag is left on the finer one") {
+    Scene scene = cube();
+    for (Primitive& p : scene.meshes[0].primitives)
+        for (uint32_t side = 0; side < p.positions.size(); side += 4)
+            for (uint32_t i = 0; i < 4; ++i)
+                p.creases.push_back({side + i, side + (i + 1) % 4, kSharp});
+    RefineOptions options;
+    const Scene tagged = refined(scene, options);
+    options.control.crease_at_normals = true;
+    const Scene by_normals = refined(cube(), options);
+    for (size_t i = 0; i < 2; ++i) {
+        const Primitive& p = tagged.meshes[0].primitives[i];
+        CHECK(p.positions == by_normals.meshes[0].primitives[i].positions);
+        CHECK(p.normals == by_normals.meshes[0].primitives[i].normals);
+        CHECK(p.creases.empty());
+    }
+}
+
 TEST_CASE("texture coordinates keep the outline of their islands, and vertices are shared inside") {
     const Scene fine = refined(cube(), RefineScheme::loop, 2);
     const Primitive& top = fine.meshes[0].primitives[1];
@@ -521,6 +539,71 @@ TEST_CASE("work ends when it is cancelled") {
     const auto result = refine_scene(cube(), {}, monitor);
     REQUIRE(!result);
     CHECK(result.error().code == Errc::cancelled);
+}
+
+TEST_CASE("of the joints between two vertices the heaviest stay, as many as the file has") {
+    // Two triangles side by side; joints of the vertices on the left and on the right differ.
+    for (const size_t width : {4u, 8u, 12u}) {
+        CAPTURE(width);
+        Scene scene;
+        scene.meshes.resize(1);
+        Primitive& p = scene.meshes[0].primitives.emplace_back();
+        p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        p.normals.assign(4, {0, 0, 1});
+        p.triangles = {{0, 1, 2}, {0, 2, 3}};
+        p.influences = static_cast<int>(width);
+        std::map<uint32_t, double> left, right;
+        for (const vec3 x : p.positions)
+            for (uint32_t i = 0; i < width; ++i) {
+                const auto count = static_cast<uint32_t>(width);
+                const uint32_t joint = x.x == 0 ? i : count / 2 + i;
+                const float rank = x.x == 0 ? float(i) + 1 : float(count - i) + 0.5f;
+                const float all = 0.5f * float(count) * (float(count) + (x.x == 0 ? 1.0f : 2.0f));
+                p.joints.push_back(joint);
+                p.weights.push_back(rank / all);
+                (x.x == 0 ? left : right)[joint] = double{p.weights.back()};
+            }
+        scene.nodes.emplace_back().mesh = 0;
+        const Primitive fine = refined(scene, RefineScheme::phong, 1).meshes[0].primitives[0];
+        const size_t kept = width == 4 ? 4 : 8;
+        REQUIRE(fine.influences == static_cast<int>(kept));
+        for (size_t v = 0; v < fine.positions.size(); ++v) {
+            const auto share = double{fine.positions[v].x};  // linear from left to right
+            std::map<uint32_t, double> mean;
+            for (const auto& [joint, weight] : left) mean[joint] += (1 - share) * weight;
+            for (const auto& [joint, weight] : right) mean[joint] += share * weight;
+            std::vector<std::pair<double, uint32_t>> heaviest;
+            for (const auto& [joint, weight] : mean)
+                if (weight > 0) heaviest.emplace_back(weight, joint);
+            std::ranges::sort(heaviest, std::greater());
+            heaviest.resize(std::min(heaviest.size(), kept));
+            double sum = 0;
+            for (const auto& [weight, joint] : heaviest) sum += weight;
+            for (size_t i = 0; i < heaviest.size(); ++i) {
+                CHECK(fine.joints[v * kept + i] == heaviest[i].second);
+                CHECK(fine.weights[v * kept + i] ==
+                      doctest::Approx(heaviest[i].first / sum).epsilon(1e-5));
+            }
+        }
+    }
+}
+
+TEST_CASE("of joints that weigh the same the first ones stay") {
+    Scene scene = cube();
+    for (Primitive& p : scene.meshes[0].primitives) {
+        p.influences = 8;
+        for (uint32_t v = 0; v < p.positions.size(); ++v)
+            for (uint32_t i = 0; i < 8; ++i) {
+                p.joints.push_back(i);
+                p.weights.push_back(0.125f);
+            }
+    }
+    const Scene fine = refined(scene, RefineScheme::phong, 1);
+    for (const Primitive& p : fine.meshes[0].primitives)
+        for (size_t i = 0; i < p.joints.size(); ++i) {
+            CHECK(p.joints[i] == i % 8);
+            CHECK(p.weights[i] == doctest::Approx(0.125).epsilon(1e-6));
+        }
 }
 
 TEST_CASE("skinned models: refined then posed is close to posed then refined, and closed") {
