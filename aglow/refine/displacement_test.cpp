@@ -21,9 +21,10 @@ using shared::Field;
 
 namespace {
 
-/// A square of `cells` x `cells` quads in the plane z = 0, normals up, uv = xy.
-PatchMesh plane(uint32_t cells) {
-    PatchMesh mesh = random_sheet(1, cells, cells, 1);
+/// A square of `cells` x `cells` quads, or a share of them, in the plane z = 0, normals up, uv =
+/// xy.
+PatchMesh plane(uint32_t cells, float quads = 1) {
+    PatchMesh mesh = random_sheet(1, cells, cells, quads);
     const float scale = 1 / static_cast<float>(cells);
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
         const auto at = static_cast<uint32_t>(v);
@@ -107,27 +108,30 @@ TEST_CASE("a plane displaced by a sine is the sine, and its normals are those of
 }
 
 TEST_CASE("a height map displaces by its heights, and tilts normals by its slopes") {
-    // A wave of one period across the map, so that repeating it has no step.
-    constexpr int kSize = 64;
+    // Waves of one period across the map, so that repeating it has no step.
+    constexpr int kSize = 256;
+    const auto turn = [](int i) { return 2 * kPi * (static_cast<float>(i) + 0.5f) / kSize; };
     std::vector<float> heights;
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x)
-            heights.push_back(0.5f +
-                              0.5f * std::sin(2 * kPi * (static_cast<float>(x) + 0.5f) / kSize));
+            heights.push_back(0.5f + 0.25f * std::sin(turn(x) + 1) + 0.25f * std::cos(turn(y) - 2));
     DisplacementMap map;
     map.map = make_height_map(heights, kSize, kSize);
     map.settings.kind = shared::kHeightMapDisplacement;
     map.settings.amplitude = 0.2f;
     map.settings.middle = 0.5f;
     map.settings.map = map.map.levels;
-    const PatchMesh mesh = plane(2);
-    map.uvs = mesh.uvs;
-    const Displaced d = displace(mesh, map, 8);
-    for (size_t v = 0; v < d.positions.size(); ++v) {
-        const vec3 p = d.positions[v];
-        CHECK(std::abs(p.z - 0.1f * std::sin(2 * kPi * p.x)) < 3e-4f);
-        const vec3 n = normalize(vec3{-0.2f * kPi * std::cos(2 * kPi * p.x), 0, 1});
-        CHECK(length(d.normals[v] - n) < 5e-3f);
+    for (const float quads : {0.0f, 1.0f}) {
+        const PatchMesh mesh = plane(2, quads);
+        map.uvs = mesh.uvs;
+        const Displaced d = displace(mesh, map, 8);
+        for (size_t v = 0; v < d.positions.size(); ++v) {
+            const vec3 p = d.positions[v];
+            const float a = 2 * kPi * p.x + 1, b = 2 * kPi * p.y - 2;
+            CHECK(std::abs(p.z - 0.05f * (std::sin(a) + std::cos(b))) < 3e-5f);
+            const vec3 n = normalize(vec3{-0.1f * kPi * std::cos(a), 0.1f * kPi * std::sin(b), 1});
+            CHECK(length(d.normals[v] - n) < 3e-4f);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "aglow/core/parallel.h"
 #include "aglow/refine/pattern.h"
+#include "aglow/refine/testing/control_meshes.h"
 #include "aglow/refine/testing/patch_meshes.h"
 
 #include <doctest/doctest.h>
@@ -371,6 +372,14 @@ TEST_CASE("normals of a mesh without any are those of its faces, apart across sh
     for (uint32_t h = 0; h < box.topology.half_edge_count(); ++h)
         for (const float part : {n[h].x, n[h].y, n[h].z})
             CHECK(std::abs(part) == doctest::Approx(std::sqrt(1.0 / 3)));
+}
+
+TEST_CASE("normals of a mesh are the same for all triangulations of its faces") {
+    const CoarseMesh cube = cube_of_triangles();  // up to six triangles at a corner, as few as four
+    const Topology topology = topology_of(cube);
+    const std::vector<vec3> normals = corner_normals(topology, cube.positions);
+    const std::vector<vec3> expected = normals_from_origin(topology, cube.positions);
+    for (size_t h = 0; h < normals.size(); ++h) CHECK(length(normals[h] - expected[h]) < 1e-6f);
 }
 
 TEST_CASE("what is evaluated does not depend on the number of threads") {

@@ -193,6 +193,21 @@ TEST_CASE("texture coordinates keep the outline of their islands, and vertices a
     CHECK(border.contains({0.25f, 0.0f}));
 }
 
+TEST_CASE("white stays white, and no colour gets brighter than it") {
+    Scene scene = cube();
+    for (Primitive& p : scene.meshes[0].primitives)
+        p.colors.assign(p.positions.size(), {1, 1, 1, 1});
+    for (const RefineScheme scheme : kSchemes) {
+        const Scene fine = refined(scene, scheme, 3);
+        for (const Primitive& p : fine.meshes[0].primitives)
+            for (const vec4 c : p.colors)
+                for (const float channel : {c.x, c.y, c.z, c.w}) {
+                    CHECK(channel <= 1);
+                    CHECK(channel == doctest::Approx(1).epsilon(1e-6));
+                }
+    }
+}
+
 TEST_CASE("a morph target at weight 1 is its shape, refined") {
     Scene scene = cube();
     Scene shape = scene;
@@ -231,6 +246,91 @@ TEST_CASE("a constant height moves every vertex by it, and no crack opens") {
         CHECK(length(moved.positions[v] - still.positions[v]) ==
               doctest::Approx(0.15).epsilon(1e-4));
     CHECK(open_edges(moved) == 0);
+}
+
+TEST_CASE("texels of a height map are taken as coarse as the refined vertices are apart") {
+    constexpr int kSize = 64, kLevel = 3, kSpan = kSize >> kLevel;  // texels between vertices
+    std::vector<float> heights;
+    for (int i = 0; i < kSize * kSize; ++i)
+        heights.push_back(static_cast<float>(i * 7919 % 4093) / 4093);
+    Scene scene;
+    scene.meshes.resize(1);
+    Primitive& p = scene.meshes[0].primitives.emplace_back();
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    p.normals.assign(4, {0, 0, 1});
+    p.triangles = {{0, 1, 2}, {0, 2, 3}};
+    p.texcoords = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    scene.nodes.emplace_back().mesh = 0;
+    RefineOptions options;
+    options.scheme = RefineScheme::flat;
+    options.level = kLevel;
+    options.displacement = HeightDisplacement{make_height_map(heights, kSize, kSize), 0.5f, 0.25f};
+    const Primitive fine = refined(scene, options).meshes[0].primitives[0];
+    CHECK(fine.positions.size() == 81);
+    for (const vec3 at : fine.positions) {
+        // Between four texels of the level: the mean of all that these are made of.
+        const int x = static_cast<int>(std::lround(at.x * kSize)),
+                  y = static_cast<int>(std::lround(at.y * kSize));
+        double sum = 0;
+        for (int j = y - kSpan; j < y + kSpan; ++j)
+            for (int i = x - kSpan; i < x + kSpan; ++i)
+                sum += double{heights[static_cast<size_t>((j + kSize) % kSize * kSize +
+                                                          (i + kSize) % kSize)]};
+        CHECK(double{at.z} ==
+              doctest::Approx(0.25 + 0.5 * sum / (4 * kSpan * kSpan)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("sides that meet at two degrees keep their normals where they are to part") {
+    Scene scene;
+    scene.meshes.resize(1);
+    Primitive& p = scene.meshes[0].primitives.emplace_back();
+    const float c = std::cos(2 * kPi / 180), s = std::sin(2 * kPi / 180);
+    p.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {c, 0, s}, {c, 1, s}};
+    p.normals.assign(6, {0, 0, 1});
+    p.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    p.texcoords = {std::vector<vec2>(6, vec2{0, 0})};
+    scene.nodes.emplace_back().mesh = 0;
+    RefineOptions options;
+    options.level = 2;
+    options.control.crease_angle = 1 * kPi / 180;
+    const HeightMap flat = make_height_map(std::array{1.0f}, 1, 1);
+    for (const RefineScheme scheme : kSchemes)
+        for (const bool displaced : {false, true}) {
+            CAPTURE(static_cast<int>(scheme));
+            CAPTURE(displaced);
+            options.scheme = scheme;
+            options.displacement.reset();
+            if (displaced) options.displacement = HeightDisplacement{flat, 0, 0};
+            const Primitive fine = refined(scene, options).meshes[0].primitives[0];
+            for (const uvec3 t : fine.triangles)
+                for (const uint32_t v : {t.x, t.y, t.z}) {
+                    const vec3 middle =
+                        fine.positions[t.x] + fine.positions[t.y] + fine.positions[t.z];
+                    const vec3 side = middle.x < 0 ? vec3{0, 0, 1} : vec3{-s, 0, c};
+                    CHECK(length(fine.normals[v] - side) < 1e-4f);
+                }
+        }
+}
+
+TEST_CASE("normals of displaced triangles count by their angles") {
+    // A cube whose corners have four to six triangles, smooth at its corners.
+    Scene scene = cube();
+    for (Primitive& p : scene.meshes[0].primitives)
+        for (size_t v = 0; v < p.positions.size(); ++v) p.normals[v] = normalize(p.positions[v]);
+    RefineOptions options;
+    options.scheme = RefineScheme::flat;
+    options.level = 1;
+    options.displacement = HeightDisplacement{make_height_map(std::array{1.0f}, 1, 1), 0, 0};
+    size_t corners = 0;
+    const Scene fine = refined(scene, options);
+    for (const Primitive& p : fine.meshes[0].primitives)
+        for (size_t v = 0; v < p.positions.size(); ++v) {
+            if (length(p.positions[v]) < 1.7f) continue;
+            CHECK(length(p.normals[v] - normalize(p.positions[v])) < 1e-5f);
+            ++corners;
+        }
+    CHECK(corners >= 8);
 }
 
 TEST_CASE("a height map that differs across seams does not open them") {
