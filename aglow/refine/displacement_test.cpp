@@ -90,6 +90,83 @@ TEST_CASE("noise is zero at the corners of its cells, continuous between, and ha
     CHECK(std::isfinite(shared::gradient_noise({1e30f, -1e30f, 0}, 5).value));
 }
 
+TEST_CASE("the fade of noise runs from 0 to 1, alike from both ends, with the slope that it says") {
+    CHECK(shared::noise_fade(0) == 0);
+    CHECK(shared::noise_fade(1) == 1);
+    for (int i = 0; i <= 64; ++i) {
+        const float t = static_cast<float>(i) / 64;
+        CHECK(shared::noise_fade(t) + shared::noise_fade(1 - t) ==
+              doctest::Approx(1).epsilon(1e-6));
+        const double x = double(t);
+        CHECK(double(shared::noise_fade(t)) ==
+              doctest::Approx(6 * std::pow(x, 5) - 15 * std::pow(x, 4) + 10 * std::pow(x, 3)));
+        CHECK(double(shared::noise_fade_slope(t)) ==
+              doctest::Approx(30 * x * x * (x - 1) * (x - 1)).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("gradients of noise lie in a cube of edge 2, their components have nothing in common") {
+    CHECK(shared::noise_component(0) == -1);
+    CHECK(shared::noise_component(512) == 0);
+    CHECK(shared::noise_component(1023) == 511.0f / 512);
+    double xx = 0, xy = 0, yz = 0, zx = 0;
+    constexpr int kCount = 4096;
+    for (int i = 0; i < kCount; ++i) {
+        const vec3 g = shared::noise_gradient(i, 3 * i, -i, 7);
+        xx += double(g.x * g.x) / kCount;
+        xy += double(g.x * g.y) / kCount;
+        yz += double(g.y * g.z) / kCount;
+        zx += double(g.z * g.x) / kCount;
+    }
+    CHECK(xx == doctest::Approx(1.0 / 3).epsilon(0.05));
+    for (const double common : {xy, yz, zx}) CHECK(std::abs(common) < 0.03);  // six deviations
+}
+
+TEST_CASE("octaves are sums of other noise, as fine and as high as is said") {
+    const vec3 p{0.3f, -1.7f, 2.6f};
+    const Field first = shared::gradient_noise(p, 5), second = shared::gradient_noise(p * 3.0f, 6);
+    const Field sum = shared::fbm(p, 2, 3, 0.25f, 5);
+    CHECK(sum.value == doctest::Approx(first.value + 0.25f * second.value).epsilon(1e-6));
+    CHECK(length(sum.gradient - first.gradient - second.gradient * 0.75f) < 1e-6f);
+}
+
+TEST_CASE("heights in space have the gradients that they say") {
+    Pcg32 random(8);
+    shared::Displacement d = {};
+    d.amplitude = 0.7f;
+    d.frequency = {2, 3, 0.5f};
+    d.phase = 0.3f;
+    d.octaves = 2;
+    d.lacunarity = 2;
+    d.gain = 0.5f;
+    for (const uint32_t kind : {shared::kSineDisplacement, shared::kNoiseDisplacement}) {
+        d.kind = kind;
+        for (int i = 0; i < 200; ++i) {
+            const vec3 p = random_vector(random) * 3.0f, way = normalize(random_vector(random));
+            constexpr float kStep = 2e-3f;
+            const float slope = (shared::displacement_at(d, p + way * kStep).value -
+                                 shared::displacement_at(d, p - way * kStep).value) /
+                                (2 * kStep);
+            CHECK(std::abs(dot(shared::displacement_at(d, p).gradient, way) - slope) < 3e-3f);
+        }
+    }
+}
+
+TEST_CASE("a height's gradient counts along the surface alone, whatever its parameters") {
+    Pcg32 random(9);
+    for (int i = 0; i < 200; ++i) {
+        const vec3 by_x = random_vector(random), by_y = random_vector(random);
+        if (length(cross(by_x, by_y)) < 0.1f) continue;
+        const vec3 n = normalize(cross(by_x, by_y)), slope = random_vector(random);
+        const vec3 along = slope - n * dot(slope, n);
+        // Of the height slope . P over the plane P = x by_x + y by_y.
+        const vec3 g = shared::surface_gradient(by_x, by_y, dot(slope, by_x), dot(slope, by_y));
+        CHECK(length(g - along) < 1e-4f);
+        CHECK(length(shared::displaced_normal(n, slope) - normalize(n - along)) < 1e-6f);
+    }
+    CHECK(length(shared::surface_gradient({1, 0, 0}, {2, 0, 0}, 1, 1)) == 0);  // no surface
+}
+
 TEST_CASE("a plane displaced by a sine is the sine, and its normals are those of the sine") {
     const PatchMesh mesh = plane(2);
     DisplacementMap sine;
