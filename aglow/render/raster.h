@@ -24,9 +24,13 @@ inline constexpr int kMostRefinement = 7;
 inline constexpr float kFinestTolerance = 0.01f;  ///< pixels
 inline constexpr float kCoarsestTolerance = 1000;
 
+/// Whether mesh shaders draw what is refined; vertex shaders draw the same picture.
+enum class MeshShaders : uint8_t { where_offered, never };
+
 struct RasterOptions {
     int samples = 4;  ///< of a pixel for edges, as many as the GPU takes: 1, 2, 4, 8, ...
     Refinement refinement = {};
+    MeshShaders mesh_shaders = MeshShaders::where_offered;
 };
 
 /// Draws on the GPU by rasterization: the look of engine `rays` without reflections, luminance =

@@ -41,11 +41,15 @@ AG_BUFFER_OF(RasterFrame);
 
 // Push constants of all that draws surfaces.
 struct RasterArgs {
+    uint first_group;  // of a mesh shader
+    uint ordered;      // 1: faces are drawn in the order of `order`, 0: by their numbers
     DeviceScenePtr scene;
     RasterFramePtr frame;
     RasterGeometryPtr geometry;
-    uintPtr order;  // [] faces as they are drawn ...
-    uint ordered;   // ... if this is 1; else they are drawn by their numbers
+    uintPtr order;                // faces
+    uint first_face, face_count;  // places in it, or faces, that a mesh shader draws
+    uint segments;                // of a pattern
+    uint unused;
 };
 
 // Term i < 9 of the real spherical harmonics up to degree 2.
@@ -83,6 +87,6 @@ AG_NAMESPACE_END
 static_assert(sizeof(aglow::shared::RasterGeometry) == 40);
 static_assert(sizeof(aglow::shared::RasterEmitter) == 20);
 static_assert(sizeof(aglow::shared::RasterFrame) == 264);
-static_assert(sizeof(aglow::shared::RasterArgs) == 40);
+static_assert(sizeof(aglow::shared::RasterArgs) == 56);
 #endif
 #endif

@@ -5,28 +5,18 @@
 #include "aglow/shared/device_patch.h"
 AG_NAMESPACE_BEGIN
 
-// 32 bytes.
+// 40 bytes.
 struct RasterPattern {
     PatchMeshPtr mesh;
-    uintPtr patch_of;  // [faces of the scene] kNoTriangle: none
-    uintPtr steps;     // Pattern::steps
-    uint segments;
-    uint unused;
+    uintPtr patch_of;       // [faces of the scene] kNoTriangle: none
+    PatchLevelsPtr levels;  // [patch] where every edge has a level of its own
+    uintPtr steps;          // of nested_triangle_pattern() ...
+    uvec3Ptr triangles;     // ... and its triangles
 };
 AG_BUFFER_OF(RasterPattern);
 
-// Likewise where every edge has a level of its own. 32 bytes.
-struct RasterAdaptive {
-    PatchMeshPtr mesh;
-    uintPtr patch_of;       // as above
-    PatchLevelsPtr levels;  // [patch]
-    uintPtr steps;          // of nested_triangle_pattern()
-};
-AG_BUFFER_OF(RasterAdaptive);
-
 AG_NAMESPACE_END
 #ifdef __cplusplus
-static_assert(sizeof(aglow::shared::RasterPattern) == 32);
-static_assert(sizeof(aglow::shared::RasterAdaptive) == 32);
+static_assert(sizeof(aglow::shared::RasterPattern) == 40);
 #endif
 #endif

@@ -17,11 +17,11 @@ class KernelRate;  // what streams have measured of it
 
 /// SPIR-V of each stage; empty: the pipeline does without. Read by create() only.
 struct GraphicsShaders {
-    std::span<const uint32_t> vertex;
-    std::span<const uint32_t> tessellation_control, tessellation_evaluation;
-    std::span<const uint32_t> geometry;
-    std::span<const uint32_t> mesh;      ///< instead of all above: see Stream::draw_groups()
-    std::span<const uint32_t> fragment;  ///< none: no colours are drawn
+    std::span<const uint32_t> vertex = {};
+    std::span<const uint32_t> tessellation_control = {}, tessellation_evaluation = {};
+    std::span<const uint32_t> geometry = {};
+    std::span<const uint32_t> mesh = {};      ///< instead of all above: see Stream::draw_groups()
+    std::span<const uint32_t> fragment = {};  ///< none: no colours are drawn
 };
 
 enum class Blend : uint8_t {

@@ -2,11 +2,13 @@
 #include "aglow/refine/gpu/device_patches.h"
 #include "aglow/refine/lod.h"
 #include "aglow/refine/pattern.h"
+#include "aglow/render/gpu/raster/adaptive.mesh.h"
 #include "aglow/render/gpu/raster/adaptive.vert.h"
 #include "aglow/render/gpu/raster/control_scene.h"
 #include "aglow/render/gpu/raster/corner_normals.h"
 #include "aglow/render/gpu/raster/face_bins.h"
 #include "aglow/render/gpu/raster/hidden_edges.h"
+#include "aglow/render/gpu/raster/pattern_drawer.h"
 #include "aglow/render/gpu/raster/vertex_source.h"
 #include "aglow/shared/raster_pattern.h"
 
@@ -17,7 +19,6 @@ namespace aglow::render::gpu {
 namespace {
 
 using refine::gpu::DevicePatches;
-using refine::gpu::DevicePattern;
 
 constexpr float kNearest = 1e-3f;  // of what is drawn: what is nearer gets no finer
 
@@ -57,21 +58,26 @@ class AdaptiveSource : public VertexSource {
 public:
     AdaptiveSource(const mesh::gpu::DeviceSurfaces& surfaces, ControlScene control,
                    std::vector<uint8_t> one_sided, const LodOptions& options, CornerNormals normals,
-                   DevicePatches patches, DevicePattern pattern)
+                   DevicePatches patches, PatternDrawer drawer)
         : surfaces_(surfaces),
           control_(std::move(control)),
           one_sided_(std::move(one_sided)),
           lod_(options),
           normals_(std::move(normals)),
           patches_(std::move(patches)),
-          pattern_(std::move(pattern)) {}
+          drawer_(std::move(drawer)) {}
 
     Status make_buffers(vk::Stream& stream);
-    std::span<const uint32_t> vertex_shader() const override { return shaders::adaptive_vert; }
+    vk::GraphicsShaders shaders() const override {
+        return drawer_.shaders(shaders::adaptive_vert, shaders::adaptive_mesh);
+    }
     Status update(vk::Stream& stream, const Shot& shot) override;
     uint64_t geometry() const override { return geometry_.address(); }
     uint64_t order() const override { return faces_.address(); }
-    std::vector<vk::Draw> draws(Layer layer, std::span<const FaceRange> faces) const override;
+    std::vector<FaceDraw> draws(Layer layer, std::span<const FaceRange> faces) const override;
+    void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const override {
+        drawer_.draw(stream, pass, draw);
+    }
     uint64_t triangles(Layer layer, std::span<const FaceRange> faces) const override;
     float tolerance() const override { return tolerance_; }
     float overhang() const override { return 0.5f; }  // control points are a third of an edge off
@@ -86,7 +92,7 @@ private:
     LevelOfDetail lod_;
     CornerNormals normals_;
     DevicePatches patches_;
-    DevicePattern pattern_;
+    PatternDrawer drawer_;
     vk::Buffer patch_of_, geometry_, faces_;
     FaceBins bins_;
     uint32_t blended_segments_ = 0;
@@ -99,9 +105,9 @@ Status AdaptiveSource::make_buffers(vk::Stream& stream) {
                                          "patches of triangles"));
     AG_TRY(faces_, stream.make_buffer(control_.patch_of.size() * sizeof(uint32_t),
                                       "triangles by their patterns"));
-    AG_TRY(geometry_, stream.make_buffer(sizeof(shared::RasterAdaptive), "patches"));
-    const shared::RasterAdaptive geometry{patches_.mesh(), patch_of_.address(), patches_.levels(),
-                                          pattern_.steps.address()};
+    AG_TRY(geometry_, stream.make_buffer(sizeof(shared::RasterPattern), "patches"));
+    const shared::RasterPattern geometry{patches_.mesh(), patch_of_.address(), patches_.levels(),
+                                         drawer_.steps(), drawer_.triangles()};
     stream.upload(std::span(&geometry, 1), geometry_);
     return {};
 }
@@ -152,16 +158,9 @@ Status AdaptiveSource::update(vk::Stream& stream, const Shot& shot) {
     return {};
 }
 
-std::vector<vk::Draw> AdaptiveSource::draws(Layer layer, std::span<const FaceRange> faces) const {
-    const auto draw = [&](uint32_t segments, FaceRange places) {
-        return vk::Draw{0, 3 * segments * segments, places.first, places.count,
-                        &pattern_.triangles};
-    };
-    if (layer == Layer::blended) return {draw(blended_segments_, faces[0])};
-    std::vector<vk::Draw> draws;
-    for (const FaceBin& bin : bins_.bins[static_cast<size_t>(layer)])
-        draws.push_back(draw(bin.segments, bin.places));
-    return draws;
+std::vector<FaceDraw> AdaptiveSource::draws(Layer layer, std::span<const FaceRange> faces) const {
+    if (layer == Layer::blended) return {pattern_draw(faces[0], blended_segments_)};
+    return bins_.draws[static_cast<size_t>(layer)];
 }
 
 uint64_t AdaptiveSource::triangles(Layer layer, std::span<const FaceRange> /*faces*/) const {
@@ -173,7 +172,7 @@ uint64_t AdaptiveSource::triangles(Layer layer, std::span<const FaceRange> /*fac
 
 Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
-    const Surfaces& rest, const Refinement& refinement) {
+    const Surfaces& rest, const RasterOptions& options) {
     AG_TRY(ControlScene control, control_scene(scene, rest));
     refine::gpu::DevicePatchInput input;
     input.vertex_source = control.vertex_source;
@@ -182,15 +181,15 @@ Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     input.tags = control.tags;
     AG_TRY(DevicePatches patches,
            DevicePatches::create(stream, control.topology, PatchOptions{}, input));
-    AG_TRY(DevicePattern pattern,
-           refine::gpu::upload_nested_pattern(stream, kMostAdaptiveSegments));
+    AG_TRY(PatternDrawer drawer,
+           PatternDrawer::create(stream, kMostAdaptiveSegments, options.mesh_shaders));
     std::vector<uint8_t> one_sided = one_sided_faces(scene, rest, control);
-    LodOptions options;
-    options.tolerance = refinement.tolerance;
-    options.budget = refinement.budget;
-    auto source = std::make_unique<AdaptiveSource>(
-        surfaces, std::move(control), std::move(one_sided), options, std::move(normals),
-        std::move(patches), std::move(pattern));
+    LodOptions lod;
+    lod.tolerance = options.refinement.tolerance;
+    lod.budget = options.refinement.budget;
+    auto source =
+        std::make_unique<AdaptiveSource>(surfaces, std::move(control), std::move(one_sided), lod,
+                                         std::move(normals), std::move(patches), std::move(drawer));
     AG_CHECK(source->make_buffers(stream));
     return source;
 }

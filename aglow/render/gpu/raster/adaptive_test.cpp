@@ -262,6 +262,39 @@ TEST_CASE("frames in the same order are the same, small movements change no leve
     CHECK(counts[2] == counts[3]);
 }
 
+TEST_CASE("mesh shaders draw the picture of vertex shaders") {
+    vk::TestDevice device;
+    if (!device) return;
+    if (!device->physical().drawing.mesh_shader) {
+        MESSAGE("skipped: the GPU has no mesh shaders");
+        return;
+    }
+    Scene scene = ball(3, 0.2f);
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].alpha_mode = AlphaMode::blend;
+    scene.materials[1].base_color.w = 0.5f;
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].primitives[0].material = 1;
+    Node glass;
+    glass.mesh = 1;
+    glass.translation = {0.5f, 0.5f, 1};
+    scene.nodes.push_back(glass);
+    std::vector<RasterOptions> all;
+    for (const int level : {0, 1, 2, 3, 4, 5}) all.push_back(uniform(level));
+    for (const float tolerance : {0.02f, 0.1f, 0.4f, 2.0f}) all.push_back(automatic(tolerance));
+    for (RasterOptions options : all) {
+        CAPTURE(options.refinement.level);
+        CAPTURE(options.refinement.tolerance);
+        const View view = from_eye(4, 0.5f, 96);
+        const DrawnFrame groups = drawn(device.gpu(), scene, view, options);
+        options.mesh_shaders = MeshShaders::never;
+        const DrawnFrame vertices = drawn(device.gpu(), scene, view, options);
+        CHECK(groups.triangles == vertices.triangles);
+        // Stages may fuse products and sums otherwise, which moves edges by a rounding.
+        CHECK(demand(difference(groups.luminance, vertices.luminance)).relative_rmse < 1e-3);
+    }
+}
+
 TEST_CASE("tolerances that make no sense are errors") {
     vk::TestDevice device;
     if (!device) return;
@@ -289,7 +322,7 @@ TEST_CASE("bins hold every visible face once, by size, and count as LevelOfDetai
           triangle_count(control.topology, levels, Tessellation::Levels::discrete));
     std::vector<int> seen(count);
     for (size_t layer = 0; layer < kSolidLayers; ++layer)
-        for (const FaceBin& bin : bins.bins[layer])
+        for (const FaceDraw& bin : bins.draws[layer])
             for (uint32_t i = 0; i < bin.places.count; ++i) {
                 const uint32_t face = bins.faces[bin.places.first + i];
                 CHECK(sizes.segments[face] == bin.segments);

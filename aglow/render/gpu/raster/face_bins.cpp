@@ -43,7 +43,7 @@ FaceBins face_bins(const FaceSizes& sizes,
         for (uint32_t segments = 1; segments < counts.size(); ++segments) {
             next[segments] = place;
             if (counts[segments] == 0) continue;
-            result.bins[layer].push_back({segments, {place, counts[segments]}});
+            result.draws[layer].push_back(pattern_draw({place, counts[segments]}, segments));
             place += counts[segments];
         }
         result.faces.resize(place);

@@ -19,16 +19,10 @@ struct FaceSizes {
 FaceSizes face_sizes(const Topology& topology, std::span<const uint32_t> patch_of,
                      std::span<const float> levels);
 
-/// Faces with patterns of one size, which follow each other in FaceBins::faces.
-struct FaceBin {
-    uint32_t segments = 0;
-    FaceRange places;
-};
-
 /// The visible faces of solid layers, by layer and by the size of their patterns.
 struct FaceBins {
     std::vector<uint32_t> faces;
-    std::array<std::vector<FaceBin>, kSolidLayers> bins;
+    std::array<std::vector<FaceDraw>, kSolidLayers> draws;
     std::array<uint64_t, kSolidLayers> triangles = {};
 };
 

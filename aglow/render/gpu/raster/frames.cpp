@@ -48,13 +48,14 @@ public:
 
 private:
     Status make_footage(const Surfaces& rest);
-    Status make_source(const Surfaces& rest, const Refinement& refinement);
+    Status make_source(const Surfaces& rest, const RasterOptions& options);
     Status make_pipelines();
     Result<vk::GraphicsPipeline> surface_pipeline(Layer layer) const;
     Status reserve_target(const View& view);
     Status move(double time);
     void place(const View& view, const Projection& projection);
     void draw_layers(const Layers& layers, uint64_t order, DrawnFrame& frame);
+    shared::RasterArgs raster_args() const;
     void draw_faces(Layer layer, std::span<const FaceRange> faces, uint64_t order,
                     DrawnFrame& frame);
     Result<DrawnFrame> draw_frame(double time, const View& view, const Monitor& monitor) override;
@@ -100,8 +101,7 @@ Result<vk::GraphicsPipeline> RasterRenderer::surface_pipeline(Layer layer) const
     const bool one_sided = layer == Layer::opaque || layer == Layer::cut;
     const std::array<uint32_t, 2> constants{footage_->tables().has_textures() ? 1u : 0u,
                                             cut || layer == Layer::blended ? 1u : 0u};
-    vk::GraphicsShaders shaders;
-    shaders.vertex = source_->vertex_shader();
+    vk::GraphicsShaders shaders = source_->shaders();
     shaders.fragment = shaders::surface_frag;
     vk::GraphicsState state;
     state.target = format_;
@@ -137,16 +137,17 @@ Status RasterRenderer::make_pipelines() {
     return {};
 }
 
-Status RasterRenderer::make_source(const Surfaces& rest, const Refinement& refinement) {
+Status RasterRenderer::make_source(const Surfaces& rest, const RasterOptions& options) {
     const mesh::gpu::DeviceSurfaces& surfaces = footage_->surfaces();
+    const Refinement& refinement = options.refinement;
     if (refinement.kind == Refinement::Kind::none) {
         AG_TRY(source_, make_plain_source(stream(), surfaces));
     } else if (refinement.kind == Refinement::Kind::automatic) {
-        AG_TRY(source_, make_adaptive_source(stream(), surfaces, scene_, rest, refinement));
+        AG_TRY(source_, make_adaptive_source(stream(), surfaces, scene_, rest, options));
     } else if (is_subdivision(refinement.kind)) {
         AG_TRY(source_, make_subdivision_source(stream(), surfaces, scene_, rest, refinement));
     } else {
-        AG_TRY(source_, make_pattern_source(stream(), surfaces, scene_, rest, refinement));
+        AG_TRY(source_, make_pattern_source(stream(), surfaces, scene_, rest, options));
     }
     return {};
 }
@@ -170,7 +171,7 @@ Status RasterRenderer::prepare(const RasterOptions& options) {
     const Surfaces rest = pose(scene_, -1, lit_ ? &lit_->atlas : nullptr);
     AG_CHECK(make_footage(rest));
     parts_.emplace(scene_, rest, is_subdivision(refinement.kind) ? Reach::mesh : Reach::part);
-    AG_CHECK(make_source(rest, refinement));
+    AG_CHECK(make_source(rest, options));
     AG_CHECK(make_pipelines());
     return stream().finish();
 }
@@ -212,15 +213,23 @@ void RasterRenderer::place(const View& view, const Projection& projection) {
     stream().barrier();
 }
 
+shared::RasterArgs RasterRenderer::raster_args() const {
+    shared::RasterArgs args{};
+    args.scene = footage_->scene();
+    args.frame = frame_.address();
+    return args;
+}
+
 void RasterRenderer::draw_faces(Layer layer, std::span<const FaceRange> faces, uint64_t order,
                                 DrawnFrame& frame) {
-    const shared::RasterArgs args{footage_->scene(), frame_.address(), source_->geometry(), order,
-                                  order != 0 ? 1u : 0u};
     const vk::GraphicsPipeline& pipeline = layer == Layer::blended
                                                ? *pipelines_.blended
                                                : *pipelines_.solid[static_cast<size_t>(layer)];
-    for (const vk::Draw& draw : source_->draws(layer, faces))
-        stream().draw(pipeline, *target_, args, draw);
+    SurfacePass pass{pipeline, *target_, raster_args()};
+    pass.args.geometry = source_->geometry();
+    pass.args.order = order;
+    pass.args.ordered = order != 0 ? 1u : 0u;
+    for (const FaceDraw& draw : source_->draws(layer, faces)) source_->draw(stream(), pass, draw);
     frame.triangles += source_->triangles(layer, faces);
 }
 
@@ -230,9 +239,7 @@ void RasterRenderer::draw_layers(const Layers& layers, uint64_t order, DrawnFram
     for (size_t i = 0; i < layers.size(); ++i)
         if (!layers[i].empty())
             draw_faces(static_cast<Layer>(i), layers[i], source_->order(), frame);
-    if (pipelines_.sky)
-        stream().draw(*pipelines_.sky, *target_,
-                      shared::RasterArgs{footage_->scene(), frame_.address(), 0, 0, 0}, {0, 3});
+    if (pipelines_.sky) stream().draw(*pipelines_.sky, *target_, raster_args(), {0, 3});
     if (!pipelines_.blended) return;
     const FaceRange blended{0, blend_order_->count()};
     draw_faces(Layer::blended, {&blended, 1}, order, frame);

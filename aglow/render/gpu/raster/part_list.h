@@ -32,6 +32,17 @@ enum class Reach : uint8_t {
     mesh   ///< those of its mesh's other parts too: subdivided surfaces
 };
 
+/// Faces that are drawn alike.
+struct FaceDraw {
+    FaceRange places = {};   ///< in RasterArgs::order, if there is one
+    uint32_t triangles = 1;  ///< that each is drawn as
+    uint32_t segments = 1;   ///< of each edge of their pattern, if they have one
+};
+
+inline FaceDraw pattern_draw(FaceRange places, uint32_t segments) {
+    return {places, segments * segments, segments};
+}
+
 /// The parts of a scene by layer, and where they are.
 class PartList {
 public:

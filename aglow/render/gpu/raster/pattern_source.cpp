@@ -2,7 +2,9 @@
 #include "aglow/refine/gpu/device_patches.h"
 #include "aglow/render/gpu/raster/control_scene.h"
 #include "aglow/render/gpu/raster/corner_normals.h"
+#include "aglow/render/gpu/raster/pattern.mesh.h"
 #include "aglow/render/gpu/raster/pattern.vert.h"
+#include "aglow/render/gpu/raster/pattern_drawer.h"
 #include "aglow/render/gpu/raster/vertex_source.h"
 #include "aglow/shared/raster_pattern.h"
 
@@ -12,39 +14,40 @@ namespace aglow::render::gpu {
 namespace {
 
 using refine::gpu::DevicePatches;
-using refine::gpu::DevicePattern;
 
 class PatternSource : public VertexSource {
 public:
     PatternSource(const mesh::gpu::DeviceSurfaces& surfaces, CornerNormals normals,
-                  DevicePatches patches, DevicePattern pattern, vk::Buffer patch_of,
-                  vk::Buffer geometry)
+                  DevicePatches patches, PatternDrawer drawer, uint32_t segments,
+                  vk::Buffer patch_of, vk::Buffer geometry)
         : surfaces_(surfaces),
           normals_(std::move(normals)),
           patches_(std::move(patches)),
-          pattern_(std::move(pattern)),
+          drawer_(std::move(drawer)),
+          segments_(segments),
           patch_of_(std::move(patch_of)),
           geometry_(std::move(geometry)) {}
 
-    std::span<const uint32_t> vertex_shader() const override { return shaders::pattern_vert; }
+    vk::GraphicsShaders shaders() const override {
+        return drawer_.shaders(shaders::pattern_vert, shaders::pattern_mesh);
+    }
 
     Status update(vk::Stream& stream, const Shot& /*shot*/) override {
         const vk::Stream::Scope scope(stream, "refine");
         const shared::RasterPattern geometry{patches_.mesh(), patch_of_.address(),
-                                             pattern_.steps.address(),
-                                             static_cast<uint32_t>(pattern_.segments), 0};
+                                             patches_.levels(), drawer_.steps(),
+                                             drawer_.triangles()};
         stream.upload(std::span(&geometry, 1), geometry_);
         patches_.update(stream, surfaces_.positions(),
                         normals_.update(stream, surfaces_.positions(), surfaces_.normals()));
         return {};
     }
     uint64_t geometry() const override { return geometry_.address(); }
-    std::vector<vk::Draw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
-        std::vector<vk::Draw> draws;
-        for (const FaceRange& run : faces)
-            draws.push_back(
-                {0, 3 * pattern_.triangle_count, run.first, run.count, &pattern_.triangles});
-        return draws;
+    std::vector<FaceDraw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
+        return face_draws(faces, pattern_draw({}, segments_));
+    }
+    void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const override {
+        drawer_.draw(stream, pass, draw);
     }
     float overhang() const override { return 0.5f; }  // control points are a third of an edge off
 
@@ -52,7 +55,8 @@ private:
     const mesh::gpu::DeviceSurfaces& surfaces_;
     CornerNormals normals_;
     DevicePatches patches_;
-    DevicePattern pattern_;
+    PatternDrawer drawer_;
+    uint32_t segments_;
     vk::Buffer patch_of_, geometry_;
 };
 
@@ -61,7 +65,8 @@ private:
 Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const mesh::gpu::DeviceSurfaces& surfaces,
                                                           const Scene& scene, const Surfaces& rest,
-                                                          const Refinement& refinement) {
+                                                          const RasterOptions& options) {
+    const Refinement& refinement = options.refinement;
     AG_TRY(const ControlScene control, control_scene(scene, rest));
     refine::gpu::DevicePatchInput input;
     input.vertex_source = control.vertex_source;
@@ -70,15 +75,15 @@ Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
     if (refinement.kind == Refinement::Kind::tagged) input.tags = control.tags;
     AG_TRY(DevicePatches patches,
            DevicePatches::create(stream, control.topology, PatchOptions{}, input));
-    AG_TRY(DevicePattern pattern,
-           refine::gpu::upload_triangle_pattern(stream, 1 << refinement.level));
+    const int segments = 1 << refinement.level;
+    AG_TRY(PatternDrawer drawer, PatternDrawer::create(stream, segments, options.mesh_shaders));
     AG_TRY(vk::Buffer patch_of,
            vk::make_buffer_of(stream, std::span<const uint32_t>(control.patch_of),
                               "patches of triangles"));
     AG_TRY(vk::Buffer geometry, stream.make_buffer(sizeof(shared::RasterPattern), "patches"));
     return std::make_unique<PatternSource>(surfaces, std::move(normals), std::move(patches),
-                                           std::move(pattern), std::move(patch_of),
-                                           std::move(geometry));
+                                           std::move(drawer), static_cast<uint32_t>(segments),
+                                           std::move(patch_of), std::move(geometry));
 }
 
 }  // namespace aglow::render::gpu

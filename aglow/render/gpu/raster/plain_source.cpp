@@ -17,7 +17,7 @@ public:
           geometry_(std::move(geometry)),
           barycentrics_(std::move(barycentrics)) {}
 
-    std::span<const uint32_t> vertex_shader() const override { return shaders::mesh_vert; }
+    vk::GraphicsShaders shaders() const override { return {.vertex = shaders::mesh_vert}; }
 
     Status update(vk::Stream& stream, const Shot& /*shot*/) override {
         const vk::Stream::Scope scope(stream, "pose");
@@ -31,10 +31,12 @@ public:
         return {};
     }
     uint64_t geometry() const override { return geometry_.address(); }
-    std::vector<vk::Draw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
-        std::vector<vk::Draw> draws;
-        for (const FaceRange& run : faces) draws.push_back({3 * run.first, 3 * run.count});
-        return draws;
+    std::vector<FaceDraw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
+        return face_draws(faces, {});
+    }
+    void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const override {
+        stream.draw(pass.pipeline, pass.target, pass.args,
+                    {3 * draw.places.first, 3 * draw.places.count});
     }
 
 private:

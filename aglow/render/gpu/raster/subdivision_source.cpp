@@ -93,7 +93,7 @@ public:
           tables_(std::move(tables)),
           face_triangles_(face_triangles) {}
 
-    std::span<const uint32_t> vertex_shader() const override { return shaders::subdivision_vert; }
+    vk::GraphicsShaders shaders() const override { return {.vertex = shaders::subdivision_vert}; }
 
     Status update(vk::Stream& stream, const Shot& /*shot*/) override {
         const vk::Stream::Scope scope(stream, "refine");
@@ -110,11 +110,13 @@ public:
         return {};
     }
     uint64_t geometry() const override { return tables_.geometry.address(); }
-    std::vector<vk::Draw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
-        std::vector<vk::Draw> draws;
-        for (const FaceRange& run : faces)
-            draws.push_back({0, 3 * face_triangles_, run.first, run.count, &tables_.triangles});
-        return draws;
+    std::vector<FaceDraw> draws(Layer /*layer*/, std::span<const FaceRange> faces) const override {
+        return face_draws(faces, {.triangles = face_triangles_});
+    }
+    void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const override {
+        stream.draw(
+            pass.pipeline, pass.target, pass.args,
+            {0, 3 * draw.triangles, draw.places.first, draw.places.count, &tables_.triangles});
     }
 
 private:

@@ -5,6 +5,8 @@
 #include "aglow/render/gpu/raster/part_list.h"
 #include "aglow/render/gpu/raster/projection.h"
 #include "aglow/render/raster.h"
+#include "aglow/shared/raster.h"
+#include "aglow/vk/graphics_pipeline.h"
 #include "aglow/vk/stream.h"
 
 #include <cstdint>
@@ -22,9 +24,15 @@ struct Shot {
     std::span<const uint32_t> blended;                             ///< faces
 };
 
+/// What faces are drawn with and into.
+struct SurfacePass {
+    const vk::GraphicsPipeline& pipeline;  ///< of VertexSource::shaders()
+    const vk::RenderTarget& target;
+    shared::RasterArgs args;
+};
+
 /// Where the vertices of the scene's triangles ("faces") come from: from memory as they are posed,
-/// from what these are refined to, or from a pattern that is drawn for each. Outputs of the vertex
-/// shader are those of mesh.vert.
+/// from what these are refined to, or from a pattern that is drawn for each.
 class VertexSource {
 public:
     VertexSource() = default;
@@ -32,7 +40,8 @@ public:
     VertexSource& operator=(const VertexSource&) = delete;
     virtual ~VertexSource() = default;
 
-    virtual std::span<const uint32_t> vertex_shader() const = 0;
+    /// All but the fragment shader, whose inputs are the outputs of mesh.vert.
+    virtual vk::GraphicsShaders shaders() const = 0;
 
     /// Follows the surfaces, which have been posed, for the frame that is drawn next.
     /// Synchronisation  Starts and ends without barrier.
@@ -44,10 +53,10 @@ public:
     /// RasterArgs::order of solid layers; 0: faces come by their numbers.
     virtual uint64_t order() const { return 0; }
 
-    /// What draws these runs of a solid layer's faces, all that the shot has of it; or so many
-    /// blended ones as they are ordered, {{0, count}}. The vertex shader finds their places from
-    /// gl_VertexIndex and gl_InstanceIndex, and the faces at these from face_at().
-    virtual std::vector<vk::Draw> draws(Layer layer, std::span<const FaceRange> faces) const = 0;
+    /// How these runs of a solid layer's faces are drawn, all that the shot has of it; or so many
+    /// blended ones as they are ordered, {{0, count}}.
+    virtual std::vector<FaceDraw> draws(Layer layer, std::span<const FaceRange> faces) const = 0;
+    virtual void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const = 0;
 
     /// Triangles that draws() makes.
     virtual uint64_t triangles(Layer layer, std::span<const FaceRange> faces) const;
@@ -72,6 +81,8 @@ Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
 Result<std::unique_ptr<VertexSource>> make_subdivision_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
     const Surfaces& rest, const Refinement& refinement);
+/// Each run of faces like that.
+std::vector<FaceDraw> face_draws(std::span<const FaceRange> faces, FaceDraw like);
 
 /// Curved patches over the triangles, meshes welded, a pattern of 2^level segments drawn for each.
 /// `rest` is what `surfaces` was made from; `surfaces` must outlive it.
@@ -79,11 +90,11 @@ Result<std::unique_ptr<VertexSource>> make_subdivision_source(
 Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const mesh::gpu::DeviceSurfaces& surfaces,
                                                           const Scene& scene, const Surfaces& rest,
-                                                          const Refinement& refinement);
+                                                          const RasterOptions& options);
 
 /// Likewise, each edge with as many segments as LevelOfDetail gives it in the frame.
 Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
-    const Surfaces& rest, const Refinement& refinement);
+    const Surfaces& rest, const RasterOptions& options);
 
 }  // namespace aglow::render::gpu
