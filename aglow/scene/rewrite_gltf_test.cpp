@@ -107,10 +107,10 @@ TEST_CASE("quantized attributes come out as floats, and their extension goes wit
     CHECK(q.texcoords == p.texcoords);
     CHECK_FALSE(json.contains("extensionsUsed"));
     CHECK_FALSE(json.contains("extensionsRequired"));
-    for (const auto& [name, accessor] :
+    for (const auto& attribute :
          json.at("meshes")[0].at("primitives")[0].at("attributes").items()) {
-        CAPTURE(name);
-        const Json& of = json.at("accessors").at(accessor.get<size_t>());
+        CAPTURE(attribute.key());
+        const Json& of = json.at("accessors").at(attribute.value().get<size_t>());
         CHECK(of.at("componentType") == kFloat);
         CHECK_FALSE(of.value("normalized", false));
     }
