@@ -2,6 +2,10 @@
 #pragma once
 #include "aglow/render/frames.h"
 
+#include <cstdint>
+#include <memory>
+#include <optional>
+
 namespace aglow {
 
 /// How the coarse, posed triangles are refined in every frame.
@@ -19,6 +23,8 @@ struct Refinement {
     int level = 0;           ///< 2^level segments to an edge, at most kMostRefinement
     float tolerance = 0.5f;  ///< automatic: pixels that edges may be away from the curve
     uint64_t budget = 0;     ///< automatic: triangles of a frame at most, 0: any number
+    /// Edges whose faces meet at a larger angle are creases, radians. None: only tagged edges are.
+    std::optional<float> crease_angle = std::nullopt;
 };
 inline constexpr int kMostRefinement = 7;
 inline constexpr float kFinestTolerance = 0.01f;  ///< pixels
@@ -49,8 +55,9 @@ struct RasterOptions {
 ///
 /// Refined meshes are welded first, each for itself: triangles that meet in position meet without
 /// gaps, whether their normals agree or not. Curved triangles follow the file's normals, or smooth
-/// ones where it has none; subdivision surfaces stand at their limit, and are sharp where
-/// refine_scene() keeps them so. Texture coordinates and colours are linear on every triangle.
+/// ones where it has none or a crease angle is given; subdivision surfaces stand at their limit,
+/// and are sharp where refine_scene() keeps them so. Texture coordinates and colours are linear on
+/// every triangle.
 ///
 /// Automatic levels go from frame to frame: see LevelOfDetail. They make triangles of the coarse
 /// mesh only finer, so that a budget below those is not kept.

@@ -56,6 +56,7 @@ struct Options {
     std::optional<Accel> accel;
     std::optional<Refinement> refine;
     std::optional<int> budget;
+    std::optional<double> crease;  // degrees
     std::optional<FrameRange> frames;
     std::optional<double> fps;
     SceneOptions scene;
@@ -148,6 +149,8 @@ Table table(Options& o) {
                      "or catmull-clark, subdivision; auto: st, each edge as fine as it takes to be "
                      "within PIXELS (default {}) of its curve (default none)",
                      Refinement{}.tolerance)},
+        {"--crease", number(&o.crease, 0, 180), "DEGREES",
+         "with --refine: edges whose faces meet at a larger angle stay creases"},
         {"--budget", whole(&o.budget, 1, kMostBudget), "N",
          "triangles of a frame at most with --refine auto, whose PIXELS grow until they fit; no "
          "fewer than the file has"},
@@ -172,6 +175,8 @@ Status check_engine(const Options& options) {
                     "take --engine path");
     if (options.refine && options.engine != Engine::raster)
         return fail(Errc::bad_argument, "--refine belongs to --engine raster; give both");
+    if (options.crease && !options.refine)
+        return fail(Errc::bad_argument, "--crease belongs to --refine; give both");
     if (options.budget && (!options.refine || options.refine->kind != Refinement::Kind::automatic))
         return fail(Errc::bad_argument, "--budget belongs to --refine auto; give both");
     if (options.engine == Engine::raster && options.bounces)
@@ -252,6 +257,8 @@ Status open_source(const Options& options, Scene& scene, Console& console, Sourc
     if (options.engine == Engine::raster) {
         RasterOptions raster{.samples = options.samples.value_or(kRasterSamples),
                              .refinement = options.refine.value_or(Refinement{})};
+        if (options.crease)
+            raster.refinement.crease_angle = static_cast<float>(*options.crease) * (kPi / 180);
         raster.refinement.budget = static_cast<uint64_t>(options.budget.value_or(0));
         AG_TRY(source.renderer,
                raster_renderer({scene, source.lit ? &*source.lit : nullptr}, raster, console));

@@ -152,6 +152,8 @@ class Pictures(harness.AglowTest):
         for wrong in ("loop", "loop:8", "loop:-1", "catmull-clark:0", "butterfly:2"):
             self.run_aglow(*render, *picture, "--refine", wrong, code=1, says="--refine")
         self.run_aglow(*render, "--refine", "loop:2", code=1, says="--engine raster")
+        self.run_aglow(*render, *picture, "--refine", "loop:2", "--crease", "30")
+        self.run_aglow(*render, *picture, "--crease", "30", code=1, says="--refine")
 
     def test_structures_are_measured_beside_embree(self):
         arguments = ("bench", "accel", "--scene", "cornell-box", "--scene", "plane.gltf",

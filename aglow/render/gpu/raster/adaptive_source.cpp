@@ -173,7 +173,7 @@ uint64_t AdaptiveSource::triangles(Layer layer, std::span<const FaceRange> /*fac
 Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
     const Surfaces& rest, const RasterOptions& options) {
-    AG_TRY(ControlScene control, control_scene(scene, rest));
+    AG_TRY(ControlScene control, control_scene(scene, rest, options.refinement.crease_angle));
     refine::gpu::DevicePatchInput input;
     input.vertex_source = control.vertex_source;
     AG_TRY(CornerNormals normals, CornerNormals::create(stream, control));

@@ -100,7 +100,9 @@ void map_faces(const Mesh& mesh, const Placement& placement, const Topology& top
 
 }  // namespace
 
-Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest) {
+Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest,
+                                   std::optional<float> crease_angle) {
+    const ControlOptions options{.crease_angle = crease_angle};
     ControlScene result;
     result.patch_of.assign(rest.triangles.size(), kNone);
     std::map<std::pair<int, bool>, ControlMesh> controls;  // of a mesh, as it is and turned about
@@ -111,7 +113,8 @@ Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest) {
         const bool mirrored = is_mirrored(scene, rest, part);
         auto known = controls.find({part.mesh, mirrored});
         if (known == controls.end()) {
-            AG_TRY(ControlMesh made, make_control_mesh(mirrored ? turned_about(mesh) : mesh));
+            AG_TRY(ControlMesh made,
+                   make_control_mesh(mirrored ? turned_about(mesh) : mesh, options));
             made.topology = with_corners(std::move(made.topology), made.positions, Corners::sharp);
             known = controls.emplace(std::pair{part.mesh, mirrored}, std::move(made)).first;
         }
@@ -124,7 +127,8 @@ Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest) {
         for (const VertexOf at : control.corners)
             result.corner_source.push_back(placement.first_vertex[at.primitive] + at.vertex);
         append(result.topology, control.topology);
-        result.lacks_normals.resize(result.topology.face_count(), !has_own_normals(mesh));
+        result.lacks_normals.resize(result.topology.face_count(),
+                                    crease_angle || !has_own_normals(mesh));
         tagged = tagged || has_tags(mesh);
     }
     if (!tagged) result.tags.clear();

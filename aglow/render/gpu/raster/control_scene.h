@@ -6,6 +6,7 @@
 #include "aglow/shared/tagged_triangle.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace aglow::render::gpu {
@@ -19,12 +20,13 @@ struct ControlScene {
     std::vector<uint32_t> corner_source;  ///< [half-edge] vertex of Surfaces
     std::vector<uint32_t> patch_of;       ///< [triangle of Surfaces] its face here; kNone: none
     std::vector<shared::ShapeTags> tags;  ///< [vertex]; empty: no primitive has any
-    std::vector<bool> lacks_normals;      ///< [face] the file has none for its mesh
+    std::vector<bool> lacks_normals;      ///< [face] smooth ones take the place of the file's
 };
 
 /// Faces have the corners of their triangle in `rest`, in its order: mirrored placements are turned
-/// about.
+/// about. Normals are lacking where the file has none, or everywhere if a crease angle is given.
 /// Errors  out_of_memory.
-Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest);
+Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest,
+                                   std::optional<float> crease_angle = std::nullopt);
 
 }  // namespace aglow::render::gpu

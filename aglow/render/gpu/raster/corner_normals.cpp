@@ -28,7 +28,8 @@ struct NormalTable {
 /// [half-edge] Corners with one number share a smooth normal.
 Result<std::vector<uint32_t>> smooth_groups(const Topology& topology) {
     AG_TRY(CreaseSides sides, crease_sides(topology));
-    return sides.empty() ? topology.vertex : std::move(sides.mesh.vertex);
+    if (sides.empty()) return topology.vertex;
+    return std::move(sides.mesh.vertex);
 }
 
 /// [group + 1] where its members begin, and these.

@@ -67,7 +67,7 @@ Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const Scene& scene, const Surfaces& rest,
                                                           const RasterOptions& options) {
     const Refinement& refinement = options.refinement;
-    AG_TRY(const ControlScene control, control_scene(scene, rest));
+    AG_TRY(const ControlScene control, control_scene(scene, rest, refinement.crease_angle));
     refine::gpu::DevicePatchInput input;
     input.vertex_source = control.vertex_source;
     AG_TRY(CornerNormals normals, CornerNormals::create(stream, control));

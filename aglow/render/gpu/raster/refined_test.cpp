@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ using namespace aglow::render::testing;
 namespace {
 
 using Kind = Refinement::Kind;
+
+/// The same surface, drawn refined and refined before.
+struct Twins {
+    Kind kind = Kind::none;
+    RefineScheme scheme = RefineScheme::loop;
+};
 
 RasterOptions refined_by(Kind kind, int level) {
     return {.samples = 4, .refinement = {kind, level}};
@@ -75,10 +82,12 @@ Scene shaded(Scene scene) {
     return scene;
 }
 
-Scene refined(const Scene& scene, RefineScheme scheme, int level) {
+Scene refined(const Scene& scene, RefineScheme scheme, int level,
+              std::optional<float> crease_angle = std::nullopt) {
     RefineOptions options;
     options.scheme = scheme;
     options.level = level;
+    options.control.crease_angle = crease_angle;
     options.limit = scheme == RefineScheme::loop || scheme == RefineScheme::catmull_clark;
     return demand(refine_scene(scene, options));
 }
@@ -143,18 +152,18 @@ TEST_CASE("subdivided surfaces are those of refine_scene at the limit") {
     vk::TestDevice device;
     if (!device) return;
     for (const bool mirrored : {false, true})
-        for (const auto& [kind, scheme] :
-             {std::pair{Kind::loop, RefineScheme::loop},
-              std::pair{Kind::catmull_clark, RefineScheme::catmull_clark}})
+        for (const Twins twins : {Twins{Kind::loop, RefineScheme::loop},
+                                  Twins{Kind::catmull_clark, RefineScheme::catmull_clark}})
             for (const int level : {1, 3}) {
                 CAPTURE(mirrored);
-                CAPTURE(static_cast<int>(scheme));
+                CAPTURE(static_cast<int>(twins.scheme));
                 CAPTURE(level);
                 const Scene scene = shaded(creased_octahedron(mirrored));
                 const View view = from_above(4, 1.1f, 96);
-                const Image wanted = rastered(device.gpu(), {refined(scene, scheme, level)}, view);
+                const Image wanted =
+                    rastered(device.gpu(), {refined(scene, twins.scheme, level)}, view);
                 const Image drawn =
-                    rastered(device.gpu(), {scene}, view, -1, refined_by(kind, level));
+                    rastered(device.gpu(), {scene}, view, -1, refined_by(twins.kind, level));
                 CHECK(relative_difference(drawn, wanted) < 1e-3);
                 CHECK(relative_difference(rastered(device.gpu(), {scene}, view), wanted) > 0.05);
             }
@@ -250,6 +259,27 @@ TEST_CASE("curved triangles of a file without normals follow smooth ones") {
         for (const auto& [a, b] : {std::pair{t.x, t.y}, std::pair{t.y, t.z}, std::pair{t.z, t.x}})
             p.creases.push_back({a, b, kSharp});
     CHECK(relative_difference(drawn(flat), faceted) < 1e-4);
+}
+
+TEST_CASE("edges above the crease angle stay sharp as refine_scene keeps them") {
+    vk::TestDevice device;
+    if (!device) return;
+    const Scene scene = shaded(cube());
+    const View view = from_above(4, 1.9f, 96);
+    for (const Twins twins :
+         {Twins{Kind::pn, RefineScheme::pn}, Twins{Kind::loop, RefineScheme::loop}})
+        for (const float angle : {kPi / 3, 2 * kPi / 3}) {  // faces meet at pi / 2
+            CAPTURE(static_cast<int>(twins.kind));
+            CAPTURE(angle);
+            RasterOptions options = refined_by(twins.kind, 2);
+            options.refinement.crease_angle = angle;
+            const Image drawn = rastered(device.gpu(), {scene}, view, -1, options);
+            const Image wanted =
+                rastered(device.gpu(), {refined(scene, twins.scheme, 2, angle)}, view);
+            CHECK(relative_difference(drawn, wanted) < 2e-3);
+            const Image flat = rastered(device.gpu(), {scene}, view);
+            CHECK((relative_difference(drawn, flat) < 0.01) == (angle < kPi / 2));
+        }
 }
 
 TEST_CASE("levels that do not exist or do not fit are errors that say so") {

@@ -160,7 +160,7 @@ Result<std::unique_ptr<VertexSource>> make_subdivision_source(
     const Surfaces& rest, const Refinement& refinement) {
     const bool loop = refinement.kind == Refinement::Kind::loop;
     const SubdivisionOptions options{loop ? Scheme::loop : Scheme::catmull_clark, refinement.level};
-    AG_TRY(const ControlScene control, control_scene(scene, rest));
+    AG_TRY(const ControlScene control, control_scene(scene, rest, refinement.crease_angle));
     AG_TRY(const CreaseSides sides, crease_sides(control.topology));
     AG_TRY(const Subdivision whole, Subdivision::create(control.topology, options));
     std::optional<Subdivision> of_sides;
