@@ -121,6 +121,36 @@ TEST_CASE("continuous levels snap in one step as in several") {
                         shared::snapped(k, 128, to, 1));
 }
 
+TEST_CASE("inner vertices come from one of the next of half the segments, inside if one is there") {
+    const auto near = [](uint32_t a, uint32_t b) { return a + 1 >= b && b + 1 >= a; };
+    for (const uint32_t n : {2u, 4u, 8u, 16u})
+        for (uint32_t j = 1; j < n; ++j)
+            for (uint32_t i = 1; i < n; ++i) {
+                const auto inside_quad = [&](uint32_t a, uint32_t b) {
+                    return shared::inside_quad(a, b, n);
+                };
+                const auto inside_triangle = [&](uint32_t a, uint32_t b) {
+                    return shared::inside_triangle(a, b, n);
+                };
+                const auto check = [&](uvec2 from, bool triangle, const auto& inside) {
+                    bool one_inside = false;
+                    for (uint32_t b = 0; b <= n; b += 2)
+                        for (uint32_t a = 0; a <= n; a += 2)
+                            one_inside |= inside(a, b) && near(a, i) && near(b, j) &&
+                                          (!triangle || near(a + b, i + j));
+                    CHECK(from.x % 2 == 0);
+                    CHECK(from.y % 2 == 0);
+                    CHECK(near(from.x, i));
+                    CHECK(near(from.y, j));
+                    if (triangle) CHECK(near(from.x + from.y, i + j));
+                    CHECK(inside(from.x, from.y) == one_inside);
+                };
+                check(shared::coarser_quad_vertex(i, j, n), false, inside_quad);
+                if (inside_triangle(i, j))
+                    check(shared::coarser_triangle_vertex(i, j, n), true, inside_triangle);
+            }
+}
+
 using shared::PatchLevels;
 using shared::PatternPoint;
 

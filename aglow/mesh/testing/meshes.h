@@ -103,7 +103,8 @@ inline Primitive book(uint32_t pages) {
 }
 
 /// A scene of one mesh, placed once for each transform.
-inline Scene scene_of(std::vector<Primitive> primitives, std::vector<mat4> transforms = {{}}) {
+inline Scene scene_of(std::vector<Primitive> primitives,
+                      const std::vector<mat4>& transforms = {{}}) {
     Scene scene;
     scene.meshes.push_back({"mesh", std::move(primitives), {}});
     for (const mat4& transform : transforms) {
