@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 using namespace aglow;
 using namespace aglow::refine::testing;
@@ -148,7 +148,10 @@ double distance_to(const PatchMesh& mesh, int segments, const std::vector<vec3>&
     return worst;
 }
 
-bool same_bits(vec3 a, vec3 b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(vec3 a, vec3 b) {
+    using Bits = std::array<uint32_t, 3>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
 
 TEST_CASE("PN, tagged and Phong triangles are those of the formulas in double precision") {
     const PatchMesh mesh = random_sheet(11, 5, 4, 0);
