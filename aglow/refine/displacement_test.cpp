@@ -212,6 +212,41 @@ TEST_CASE("a height map displaces by its heights, and tilts normals by its slope
     }
 }
 
+TEST_CASE("flat faces raised to a ball have the ball's normals, not those of both") {
+    // One face of an octahedron. Along the ray of each point's direction the ball is so far off.
+    PatchMesh mesh;
+    mesh.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.topology = topology_of({.face_begin = {0, 3}, .corners = {0, 1, 2}, .vertex_count = 3});
+    mesh.normals = mesh.positions;
+    mesh.uvs = {{0.1f, 0.1f}, {0.9f, 0.1f}, {0.1f, 0.9f}};
+    constexpr int kSize = 256;
+    std::vector<float> heights;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const vec2 at = {((static_cast<float>(x) + 0.5f) / kSize - 0.1f) / 0.8f,
+                             ((static_cast<float>(y) + 0.5f) / kSize - 0.1f) / 0.8f};
+            heights.push_back(1 - length(vec3{1 - at.x - at.y, at.x, at.y}));
+        }
+    DisplacementMap map;
+    map.map = make_height_map(heights, kSize, kSize);
+    map.settings.kind = shared::kHeightMapDisplacement;
+    map.settings.amplitude = 1;
+    map.settings.map = map.map.levels;
+    map.uvs = mesh.uvs;
+    const Patches patches =
+        demand(Patches::create(mesh.topology, {PatchShape::flat, NormalField::linear}));
+    PatchControl control;
+    patches.update(mesh.input(), control);
+    const Tessellation t = demand(Tessellation::uniform(mesh.topology, 12));
+    std::vector<vec3> positions(t.vertex_count()), normals(t.vertex_count());
+    patches.evaluate(control, t, map, positions, normals);
+    for (size_t v = 0; v < positions.size(); ++v) {
+        CHECK(std::abs(length(positions[v]) - 1) < 1e-4f);
+        // Slopes are looked up as far as a texel from there, of which the face has 205.
+        CHECK(length(normals[v] - normalize(positions[v])) < 1e-2f);
+    }
+}
+
 TEST_CASE("levels of a height map are means, and levels between are between") {
     Pcg32 random(4);
     std::vector<float> heights(32 * 8);

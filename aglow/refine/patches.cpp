@@ -172,7 +172,8 @@ void Patches::evaluate(const PatchControl& control, const Tessellation& tessella
     if (tessellation.segments > 0 && tessellation.density.empty())
         refine::cpu::evaluate_uniform(topology_, control, tessellation, positions);
     else
-        refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, positions, {});
+        refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, false, positions,
+                                      {});
 }
 
 void Patches::evaluate(const PatchControl& control, const Tessellation& tessellation,
@@ -180,14 +181,14 @@ void Patches::evaluate(const PatchControl& control, const Tessellation& tessella
                        std::span<vec3> normals) const {
     AG_ASSERT(positions.size() == tessellation.vertex_count(), "room for all vertices");
     AG_ASSERT(normals.empty() || normals.size() == positions.size(), "room for all normals");
-    refine::cpu::evaluate_general(topology_, control, tessellation, &displacement, positions,
-                                  normals);
+    refine::cpu::evaluate_general(topology_, control, tessellation, &displacement,
+                                  options_.shape == PatchShape::flat, positions, normals);
 }
 
 void Patches::evaluate_normals(const PatchControl& control, const Tessellation& tessellation,
                                std::span<vec3> normals) const {
     AG_ASSERT(normals.size() == tessellation.vertex_count(), "room for all normals");
-    refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, {}, normals);
+    refine::cpu::evaluate_general(topology_, control, tessellation, nullptr, false, {}, normals);
 }
 
 PatchPlace Patches::at(const PatchControl& control, uint32_t face, vec2 coordinates) const {

@@ -13,13 +13,29 @@ AG_CONST uint kFlatPatch = 0u;
 AG_CONST uint kPnPatch = 1u;
 AG_CONST uint kPhongPatch = 2u;
 
-// A face. 44 bytes.
+// What the faces of a part of the mesh have in common. 88 bytes.
+struct PatchKind {
+    uint shape;      // k...Patch
+    uint quadratic;  // 1: normals are
+    Displacement displacement;
+};
+AG_BUFFER_OF(PatchKind);
+
+// Mip levels of the height map on a face: on its edges, and inside. 20 bytes.
+struct PatchMips {
+    float edge[4];
+    float inner;
+};
+AG_BUFFER_OF(PatchMips);
+
+// A face. 48 bytes.
 struct PatchFace {
     uint first;     // half-edge
     uint corners;   // 3 or 4
     uint reversed;  // bit i: edge i runs from the vertex of the higher number
     uint vertex[4];
     uint edge[4];
+    uint kind;
 };
 AG_BUFFER_OF(PatchFace);
 
@@ -48,11 +64,11 @@ AG_BUFFER_OF(PatchDirections);
 // Where all of this lies.
 struct PatchMesh {
     uint vertex_count, edge_count, face_count;
-    uint shape;      // k...Patch
-    uint quadratic;  // 1: normals are
-    uint tagged;     // 1: there are tags
+    uint tagged;  // 1: there are tags
     float phong_shape;
     uint displacement_kind;  // k...Displacement
+    PatchKindPtr kinds;
+    uintPtr vertex_kind;  // [vertex]
 
     // Of the topology.
     uintPtr vertex_source;  // [vertex] of the positions that come in
@@ -64,15 +80,18 @@ struct PatchMesh {
     ShapeTagsPtr tags;  // [vertex]
 
     // Of displacement.
-    DisplacementPtr displacement;
-    floatPtr heights;  // texels of the height map
-    vec2Ptr uvs;       // [half-edge]
-    uvec2Ptr across;   // [half-edge] where it starts and ends, the half-edges of the face beyond
+    floatPtr heights;      // texels of all height maps
+    vec2Ptr uvs;           // [half-edge]
+    uvec2Ptr across;       // [half-edge] where it starts and ends, the half-edges beyond
+    uintPtr face_of;       // [half-edge]
+    floatPtr vertex_mips;  // [vertex]
+    PatchMipsPtr mips;     // [face]
 
     // Of a frame.
     vec3Ptr positions;                    // [vertex]
     vec3Ptr directions;                   // [vertex]
     floatPtr vertex_heights;              // [vertex] of the height map
+    vec3Ptr raised_normals;               // [half-edge] where it starts, of flat faces
     EdgePointsPtr edge_points;            // [edge]
     vec3Ptr edge_directions;              // [edge]
     DevicePatchPtr patches;               // [face]
@@ -102,11 +121,13 @@ struct PatchEvaluateArgs {
 
 AG_NAMESPACE_END
 #ifdef __cplusplus
-static_assert(sizeof(aglow::shared::PatchFace) == 44);
+static_assert(sizeof(aglow::shared::PatchFace) == 48);
 static_assert(sizeof(aglow::shared::PatchEdgeEnds) == 24);
 static_assert(sizeof(aglow::shared::DevicePatch) == 240);
 static_assert(sizeof(aglow::shared::PatchDirections) == 96);
-static_assert(sizeof(aglow::shared::PatchMesh) == 176);
+static_assert(sizeof(aglow::shared::PatchKind) == 88);
+static_assert(sizeof(aglow::shared::PatchMips) == 20);
+static_assert(sizeof(aglow::shared::PatchMesh) == 208);
 static_assert(sizeof(aglow::shared::PatchControlArgs) == 32);
 static_assert(sizeof(aglow::shared::PatchEvaluateArgs) == 64);
 #endif

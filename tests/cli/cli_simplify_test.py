@@ -55,6 +55,25 @@ class Simplify(harness.AglowTest):
             for a, b in zip(dense[side], again[side]):
                 self.assertAlmostEqual(a, b, delta=0.005)
 
+    def test_drawing_refined_shows_the_dense_shape(self):
+        if not self.gpus():
+            self.skipTest("no GPU")
+        self.run_aglow("simplify", "dense.glb", "-o", "drawn.glb", "--ratio", "0.04",
+                       "--no-compare")
+        def drawn(scene, name, *arguments):
+            return self.json_of("render", scene, "-o", f"{name}.exr", "--size", "160x120",
+                                "--sky", "20", "--sun", "120,50,3000", "--engine", "raster",
+                                "--device", self.gpus()[0], *arguments)
+        dense = drawn("dense.glb", "dense")
+        drawn("drawn.glb", "coarse")
+        drawn("drawn.glb", "uniform", "--refine", "pn:3")
+        auto = drawn("drawn.glb", "auto", "--refine", "auto:0.25")
+        self.assertLess(auto["triangles"], 2 * dense["triangles"])
+        def rmse(name):
+            return self.json_of("compare", f"{name}.exr", "dense.exr")["relative_rmse"]
+        self.assertLess(rmse("uniform"), 0.5 * rmse("coarse"))
+        self.assertLess(rmse("auto"), 0.6 * rmse("coarse"))
+
     def test_the_khronos_validator_finds_nothing(self):
         self.run_aglow("simplify", "dense.glb", "-o", "valid.glb", "--no-compare")
         done = subprocess.run(["node", harness.ROOT / "tools" / "validate_gltf.mjs", "--warnings",

@@ -32,12 +32,13 @@ struct Slopes {
 class Evaluator {
 public:
     Evaluator(const Topology& topology, const PatchControl& control,
-              const Tessellation& tessellation, const DisplacementMap* displacement,
+              const Tessellation& tessellation, const DisplacementMap* displacement, bool flat,
               std::span<vec3> positions, std::span<vec3> normals)
         : topology_(topology),
           control_(control),
           tessellation_(tessellation),
           displacement_(displacement),
+          flat_(flat),
           positions_(positions),
           normals_(normals) {}
 
@@ -60,13 +61,18 @@ private:
     float map_height_on_edge(uint32_t h, float t) const;
     float map_height_at(uint32_t v) const;
     vec2 uv_at(FacePlace at) const;
-    vec3 map_gradient(FacePlace at) const;
+    Slopes map_slopes(FacePlace at) const;
+    float longest_edge(uint32_t face) const;
+    Slopes flat_slopes(FacePlace at) const;
+    shared::UnitField corner_directions(FacePlace at) const;
+    vec3 map_normal(SurfacePoint point, float height, FacePlace at) const;
     void store(uint32_t index, SurfacePoint point, float map_height, FacePlace at) const;
 
     const Topology& topology_;
     const PatchControl& control_;
     const Tessellation& tessellation_;
     const DisplacementMap* displacement_;
+    bool flat_;
     std::span<vec3> positions_, normals_;
 };
 
@@ -126,8 +132,8 @@ vec2 Evaluator::uv_at(FacePlace at) const {
            (uv(3) * (1 - at.x) + uv(2) * at.x) * at.y;
 }
 
-/// On the surface, of a height map: differences over one texel, by the chain rule.
-vec3 Evaluator::map_gradient(FacePlace at) const {
+/// Of a height map's displacement: differences over one texel, by the chain rule.
+Slopes Evaluator::map_slopes(FacePlace at) const {
     const shared::TextureLevels& levels = displacement_->map.levels;
     const float texel = std::exp2(displacement_->settings.level);
     const vec2 step = {0.5f * texel / static_cast<float>(levels.width),
@@ -140,6 +146,53 @@ vec3 Evaluator::map_gradient(FacePlace at) const {
     // uv is linear in x and in y, so that differences over the face are its derivatives.
     const vec2 uv_x = uv_at({at.face, 1, at.y}) - uv_at({at.face, 0, at.y});
     const vec2 uv_y = uv_at({at.face, at.x, 1}) - uv_at({at.face, at.x, 0});
+    return {by_u * uv_x.x + by_v * uv_x.y, by_u * uv_y.x + by_v * uv_y.y};
+}
+
+/// Texels along it.
+float Evaluator::longest_edge(uint32_t face) const {
+    const shared::TextureLevels& levels = displacement_->map.levels;
+    const vec2 size = {static_cast<float>(levels.width), static_cast<float>(levels.height)};
+    float longest = 0;
+    for (uint32_t h = topology_.face_begin[face]; h < topology_.face_begin[face + 1]; ++h) {
+        const vec2 along = displacement_->uvs[topology_.next(h)] - displacement_->uvs[h];
+        longest = std::max(longest, length(along * size));
+    }
+    return longest;
+}
+
+/// Of a height map's displacement of a flat face: see shared::slope_share().
+Slopes Evaluator::flat_slopes(FacePlace at) const {
+    const float share =
+        shared::slope_share(std::exp2(displacement_->settings.level), longest_edge(at.face));
+    const auto height = [&](vec2 corner) {
+        const vec2 place = shared::slope_corner({at.x, at.y}, corner, share);
+        return map_height(uv_at({at.face, place.x, place.y}));
+    };
+    const float a = height({0, 0}), b = height({1, 0}), top = height({0, 1});
+    if (topology_.face_size(at.face) == 3) return {(b - a) / share, (top - a) / share};
+    const float c = height({1, 1});
+    return {((b - a) * (1 - at.y) + (c - top) * at.y) / share,
+            ((top - a) * (1 - at.x) + (c - b) * at.x) / share};
+}
+
+/// The direction of displacement over a flat face: that of its corners, interpolated.
+shared::UnitField Evaluator::corner_directions(FacePlace at) const {
+    const uint32_t first = topology_.face_begin[at.face];
+    const auto corner = [&](uint32_t i) {
+        return control_.directions[topology_.vertex[first + i]];
+    };
+    const vec3 a = corner(0), b = corner(1), c = corner(2);
+    if (topology_.face_size(at.face) == 3)
+        return shared::unit_field(a * (1 - at.x - at.y) + b * at.x + c * at.y, b - a, c - a);
+    const vec3 d = corner(3);
+    const vec3 low = a * (1 - at.x) + b * at.x, high = d * (1 - at.x) + c * at.x;
+    return shared::unit_field(low * (1 - at.y) + high * at.y, (b - a) * (1 - at.y) + (c - d) * at.y,
+                              high - low);
+}
+
+vec3 Evaluator::map_normal(SurfacePoint point, float height, FacePlace at) const {
+    const Slopes slopes = flat_ ? flat_slopes(at) : map_slopes(at);
     vec3 by_x, by_y;
     if (topology_.face_size(at.face) == 3) {
         const auto points = triangle_points(topology_, control_, at.face);
@@ -150,24 +203,24 @@ vec3 Evaluator::map_gradient(FacePlace at) const {
         by_x = shared::quad_derivative_x(points, at.x, at.y);
         by_y = shared::quad_derivative_y(points, at.x, at.y);
     }
-    return shared::surface_gradient(by_x, by_y, by_u * uv_x.x + by_v * uv_x.y,
-                                    by_u * uv_y.x + by_v * uv_y.y);
+    if (flat_)
+        return shared::raised_normal(by_x, by_y, corner_directions(at), height, slopes.by_x,
+                                     slopes.by_y, point.normal);
+    return shared::displaced_normal(point.normal,
+                                    shared::surface_gradient(by_x, by_y, slopes.by_x, slopes.by_y));
 }
 
 void Evaluator::store(uint32_t index, SurfacePoint point, float map_height, FacePlace at) const {
     Field height = {0, {0, 0, 0}};
-    if (has_map()) {
-        height.value = map_height;
-        if (!normals_.empty()) height.gradient = map_gradient(at);
-    } else if (displacement_) {
-        height = shared::displacement_at(displacement_->settings, point.position);
-    }
+    if (displacement_) height = shared::displacement_at(displacement_->settings, point.position);
+    if (has_map()) height.value = map_height;
     if (!positions_.empty())
         positions_[index] =
             displacement_ ? point.position + point.direction * height.value : point.position;
-    if (!normals_.empty())
-        normals_[index] =
-            displacement_ ? shared::displaced_normal(point.normal, height.gradient) : point.normal;
+    if (normals_.empty()) return;
+    normals_[index] = has_map()       ? map_normal(point, map_height, at)
+                      : displacement_ ? shared::displaced_normal(point.normal, height.gradient)
+                                      : point.normal;
 }
 
 void Evaluator::vertex(uint32_t v) const {
@@ -256,8 +309,9 @@ void Evaluator::face(uint32_t f) const {
 
 void evaluate_general(const Topology& topology, const PatchControl& control,
                       const Tessellation& tessellation, const DisplacementMap* displacement,
-                      std::span<vec3> positions, std::span<vec3> normals) {
-    const Evaluator evaluator(topology, control, tessellation, displacement, positions, normals);
+                      bool flat, std::span<vec3> positions, std::span<vec3> normals) {
+    const Evaluator evaluator(topology, control, tessellation, displacement, flat, positions,
+                              normals);
     const auto run = [](size_t count, size_t grain, const auto& one) {
         parallel_for(count, grain, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) one(static_cast<uint32_t>(i));

@@ -5,6 +5,8 @@
 #include "aglow/refine/gpu/patch_control.comp.h"
 #include "aglow/refine/gpu/patch_edges.comp.h"
 #include "aglow/refine/gpu/patch_evaluate.comp.h"
+#include "aglow/refine/gpu/patch_heights.comp.h"
+#include "aglow/refine/gpu/patch_normals.comp.h"
 #include "aglow/refine/gpu/patch_vertices.comp.h"
 #include "aglow/vk/device.h"
 #include "aglow/vk/kernel.h"
@@ -13,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 
 namespace aglow::refine::gpu {
@@ -22,16 +25,17 @@ using shared::PatchEdgeEnds;
 using shared::PatchFace;
 
 struct Kernels {
-    vk::Kernel vertices, edges, control;
+    vk::Kernel vertices, edges, control, heights, normals;
     std::vector<vk::Kernel> evaluate;  ///< [2 * is quad + is adaptive]
 
     static Result<Kernels> create(const Gpu& gpu, uint32_t displacement) {
-        const std::array constants = {displacement};
         AG_TRY(auto vertices,
-               vk::Kernel::create(gpu, "patch vertices", shaders::patch_vertices_comp, constants));
+               vk::Kernel::create(gpu, "patch vertices", shaders::patch_vertices_comp));
         AG_TRY(auto edges, vk::Kernel::create(gpu, "patch edges", shaders::patch_edges_comp));
         AG_TRY(auto control,
                vk::Kernel::create(gpu, "patch control points", shaders::patch_control_comp));
+        AG_TRY(auto heights, vk::Kernel::create(gpu, "patch heights", shaders::patch_heights_comp));
+        AG_TRY(auto normals, vk::Kernel::create(gpu, "patch normals", shaders::patch_normals_comp));
         std::vector<vk::Kernel> evaluate;
         for (const uint32_t corners : {3u, 4u})
             for (const uint32_t adaptive : {0u, 1u}) {
@@ -40,8 +44,8 @@ struct Kernels {
                                           std::array{displacement, corners, adaptive}));
                 evaluate.push_back(std::move(kernel));
             }
-        return Kernels{std::move(vertices), std::move(edges), std::move(control),
-                       std::move(evaluate)};
+        return Kernels{std::move(vertices), std::move(edges),   std::move(control),
+                       std::move(heights),  std::move(normals), std::move(evaluate)};
     }
 };
 
@@ -55,11 +59,16 @@ std::vector<uint32_t> or_own_numbers(std::span<const uint32_t> given, uint32_t c
     return result;
 }
 
-std::vector<PatchFace> device_faces(const Topology& topology) {
+std::vector<PatchFace> device_faces(const Topology& topology,
+                                    const std::vector<uint32_t>& vertex_kind) {
     std::vector<PatchFace> faces;
     for (uint32_t f = 0; f < topology.face_count(); ++f) {
-        PatchFace face = {
-            topology.face_begin[f], topology.face_size(f), reversed_edges(topology, f), {}, {}};
+        PatchFace face = {.first = topology.face_begin[f],
+                          .corners = topology.face_size(f),
+                          .reversed = reversed_edges(topology, f),
+                          .vertex = {},
+                          .edge = {},
+                          .kind = vertex_kind[topology.vertex[topology.face_begin[f]]]};
         for (uint32_t i = 0; i < face.corners; ++i) {
             face.vertex[i] = topology.vertex[face.first + i];
             face.edge[i] = topology.edge[face.first + i];
@@ -118,6 +127,54 @@ std::vector<uvec2> device_across(const Topology& topology) {
     return across;
 }
 
+uint32_t number_of(PatchShape shape) {
+    return shape == PatchShape::pn      ? shared::kPnPatch
+           : shape == PatchShape::phong ? shared::kPhongPatch
+                                        : shared::kFlatPatch;
+}
+
+/// Kinds as shaders see them, and the height maps that they have between them.
+struct DeviceKinds {
+    std::vector<shared::PatchKind> kinds;
+    std::vector<uint32_t> of_vertex;
+    std::vector<float> heights;
+    std::span<const vec2> uvs;
+    uint32_t displacement = shared::kNoDisplacement;  ///< kPatchDisplacement
+};
+
+DeviceKinds device_kinds(const Topology& topology, const PatchOptions& options,
+                         const DevicePatchInput& input) {
+    PatchKind single = {options.shape, options.normals, {}, nullptr};
+    if (input.displacement) {
+        single.displacement = input.displacement->settings;
+        single.map = &input.displacement->map;
+    }
+    const bool many = !input.kinds.empty();
+    DeviceKinds result;
+    result.uvs = many ? input.uvs : input.displacement ? input.displacement->uvs : input.uvs;
+    result.of_vertex.assign(input.kind_of.begin(), input.kind_of.end());
+    result.of_vertex.resize(topology.vertex_count(), 0);
+    std::map<const HeightMap*, uint32_t> first_texel;
+    for (const PatchKind& kind : many ? input.kinds : std::span<const PatchKind>(&single, 1)) {
+        shared::Displacement d = kind.displacement;
+        if (d.kind == shared::kHeightMapDisplacement) {
+            const auto next = static_cast<uint32_t>(result.heights.size());
+            const auto [at, is_new] = first_texel.try_emplace(kind.map, next);
+            if (is_new)
+                result.heights.insert(result.heights.end(), kind.map->texels.begin(),
+                                      kind.map->texels.end());
+            d.map = kind.map->levels;
+            d.map.first_texel = at->second;
+        }
+        result.displacement = result.kinds.empty() || result.displacement == d.kind
+                                  ? d.kind
+                                  : shared::kMixedDisplacement;
+        result.kinds.push_back(
+            {number_of(kind.shape), kind.normals == NormalField::quadratic ? 1u : 0u, d});
+    }
+    return result;
+}
+
 Result<DevicePattern> upload_pattern(vk::Stream& stream, const Pattern& pattern, int segments,
                                      uint32_t corners) {
     DevicePattern device;
@@ -161,6 +218,8 @@ struct DevicePatches::State {
     shared::PatchMesh layout = {};
     std::vector<vk::Buffer> buffers;  ///< what `layout` points to
     vk::Buffer mesh, levels;
+    vk::Buffer kinds, vertex_mips, mips;
+    std::vector<shared::PatchKind> kinds_there;
     vk::Buffer control;  ///< positions, directions and edge_points of `layout`, in this order
 
     template <class T>
@@ -178,14 +237,19 @@ struct DevicePatches::State {
         return {};
     }
     Status upload_topology(vk::Stream& stream, const Topology& topology,
-                           const DevicePatchInput& input);
-    Status upload_displacement(vk::Stream& stream, const Topology& topology,
-                               const DisplacementMap& displacement);
+                           const DevicePatchInput& input, const std::vector<uint32_t>& vertex_kind);
+    Status upload_kinds(vk::Stream& stream, const Topology& topology, DeviceKinds made);
     Status make_frame(vk::Stream& stream);
+    bool has_maps() const {
+        return std::ranges::any_of(kinds_there, [](const shared::PatchKind& kind) {
+            return kind.displacement.kind == shared::kHeightMapDisplacement;
+        });
+    }
 };
 
 Status DevicePatches::State::upload_topology(vk::Stream& stream, const Topology& topology,
-                                             const DevicePatchInput& input) {
+                                             const DevicePatchInput& input,
+                                             const std::vector<uint32_t>& vertex_kind) {
     const std::vector<uint32_t> sources =
         or_own_numbers(input.vertex_source, topology.vertex_count());
     const std::vector<uint32_t> normals =
@@ -195,23 +259,43 @@ Status DevicePatches::State::upload_topology(vk::Stream& stream, const Topology&
     AG_CHECK(upload<uint32_t>(stream, layout.corner_normal, normals, "normals of corners"));
     AG_CHECK(upload<uint32_t>(stream, layout.fan_begin, fans.begin, "fans of vertices"));
     AG_CHECK(upload<uint32_t>(stream, layout.fans, fans.half_edges, "fans"));
-    AG_CHECK(upload<PatchFace>(stream, layout.faces, device_faces(topology), "faces of patches"));
+    AG_CHECK(upload<PatchFace>(stream, layout.faces, device_faces(topology, vertex_kind),
+                               "faces of patches"));
     AG_CHECK(upload<PatchEdgeEnds>(stream, layout.edges, device_edges(topology, normals),
                                    "edges of patches"));
     AG_CHECK(upload<shared::ShapeTags>(stream, layout.tags, input.tags, "tags of vertices"));
     return {};
 }
 
-Status DevicePatches::State::upload_displacement(vk::Stream& stream, const Topology& topology,
-                                                 const DisplacementMap& displacement) {
-    shared::Displacement settings = displacement.settings;
-    settings.map = displacement.map.levels;
-    AG_CHECK(upload<shared::Displacement>(stream, layout.displacement, {&settings, 1},
-                                          "a displacement"));
-    if (settings.kind != shared::kHeightMapDisplacement) return {};
-    AG_CHECK(upload<float>(stream, layout.heights, displacement.map.texels, "a height map"));
-    AG_CHECK(upload<vec2>(stream, layout.uvs, displacement.uvs, "coordinates in a height map"));
+Status DevicePatches::State::upload_kinds(vk::Stream& stream, const Topology& topology,
+                                          DeviceKinds made) {
+    kinds_there = std::move(made.kinds);
+    AG_TRY(kinds, vk::make_buffer_of(stream, std::span<const shared::PatchKind>(kinds_there),
+                                     "kinds of patches"));
+    layout.kinds = kinds.address();
+    AG_CHECK(upload<uint32_t>(stream, layout.vertex_kind, made.of_vertex, "kinds of vertices"));
+    if (!has_maps()) return {};
+    AG_ASSERT(made.uvs.size() == topology.half_edge_count(), "coordinates for every corner");
+    std::vector<float> at_vertices;
+    for (const uint32_t kind : made.of_vertex)
+        at_vertices.push_back(kinds_there[kind].displacement.level);
+    std::vector<shared::PatchMips> of_faces;
+    for (uint32_t f = 0; f < topology.face_count(); ++f) {
+        const float level = at_vertices[topology.vertex[topology.face_begin[f]]];
+        of_faces.push_back({{level, level, level, level}, level});
+    }
+    AG_CHECK(upload<float>(stream, layout.heights, made.heights, "height maps"));
+    AG_CHECK(upload<vec2>(stream, layout.uvs, made.uvs, "coordinates in height maps"));
     AG_CHECK(upload<uvec2>(stream, layout.across, device_across(topology), "seams"));
+    AG_CHECK(upload<uint32_t>(stream, layout.face_of, topology.face, "faces of half-edges"));
+    AG_CHECK(make(stream, layout.raised_normals, made.uvs.size() * sizeof(vec3),
+                  "normals of displaced corners"));
+    AG_TRY(vertex_mips, vk::make_buffer_of(stream, std::span<const float>(at_vertices),
+                                           "mip levels of vertices"));
+    AG_TRY(mips, vk::make_buffer_of(stream, std::span<const shared::PatchMips>(of_faces),
+                                    "mip levels of faces"));
+    layout.vertex_mips = vertex_mips.address();
+    layout.mips = mips.address();
     return make(stream, layout.vertex_heights, uint64_t{4} * layout.vertex_count,
                 "heights of vertices");
 }
@@ -247,24 +331,18 @@ Result<DevicePatches> DevicePatches::create(vk::Stream& stream, const Topology& 
             return fail(Errc::bad_argument,
                         fmt::format("face {} has {} corners: patches are triangles and quads", f,
                                     topology.face_size(f)));
-    const uint32_t kind =
-        input.displacement ? input.displacement->settings.kind : shared::kNoDisplacement;
-    AG_TRY(auto kernels, Kernels::create(stream.gpu(), kind));
+    DeviceKinds kinds = device_kinds(topology, options, input);
+    AG_TRY(auto kernels, Kernels::create(stream.gpu(), kinds.displacement));
     auto state = std::make_unique<State>(std::move(kernels));
     shared::PatchMesh& layout = state->layout;
     layout.vertex_count = topology.vertex_count();
     layout.edge_count = topology.edge_count();
     layout.face_count = topology.face_count();
-    layout.shape = options.shape == PatchShape::pn      ? shared::kPnPatch
-                   : options.shape == PatchShape::phong ? shared::kPhongPatch
-                                                        : shared::kFlatPatch;
-    layout.quadratic = options.normals == NormalField::quadratic ? 1 : 0;
     layout.tagged = input.tags.empty() ? 0 : 1;
     layout.phong_shape = options.phong_shape;
-    layout.displacement_kind = kind;
-    AG_CHECK(state->upload_topology(stream, topology, input));
-    if (input.displacement)
-        AG_CHECK(state->upload_displacement(stream, topology, *input.displacement));
+    layout.displacement_kind = kinds.displacement;
+    AG_CHECK(state->upload_topology(stream, topology, input, kinds.of_vertex));
+    AG_CHECK(state->upload_kinds(stream, topology, std::move(kinds)));
     AG_CHECK(state->make_frame(stream));
     AG_CHECK(stream.finish());
     return DevicePatches(std::move(state));
@@ -277,8 +355,15 @@ void DevicePatches::update(vk::Stream& stream, uint64_t positions, uint64_t norm
                vk::group_count(s.layout.vertex_count, shared::kPatchGroup));
     stream.barrier();
     stream.run(s.kernels.edges, args, vk::group_count(s.layout.edge_count, shared::kPatchGroup));
+    if (s.has_maps())
+        stream.run(s.kernels.heights, args,
+                   vk::group_count(s.layout.vertex_count, shared::kPatchGroup));
     stream.barrier();
     stream.run(s.kernels.control, args, vk::group_count(s.layout.face_count, shared::kPatchGroup));
+    if (!s.has_maps()) return;
+    stream.barrier();
+    stream.run(s.kernels.normals, args,
+               vk::group_count(s.layout.vertex_count, shared::kPatchGroup));
 }
 
 Result<PatchControl> DevicePatches::download_control(vk::Stream& stream) const {
@@ -299,6 +384,36 @@ void DevicePatches::set_levels(vk::Stream& stream,
                                std::span<const shared::PatchLevels> levels) const {
     AG_ASSERT(levels.size() == state_->layout.face_count, "levels for every face");
     stream.upload(levels, state_->levels);
+}
+
+void DevicePatches::set_displacements(vk::Stream& stream,
+                                      std::span<const shared::Displacement> by_kind) {
+    State& s = *state_;
+    AG_ASSERT(by_kind.size() == s.kinds_there.size(), "a displacement of each kind");
+    for (size_t i = 0; i < by_kind.size(); ++i) {
+        shared::Displacement& there = s.kinds_there[i].displacement;
+        const shared::TextureLevels map = there.map;
+        there = by_kind[i];
+        there.map = map;
+    }
+    stream.upload(std::span<const shared::PatchKind>(s.kinds_there), s.kinds);
+}
+
+void DevicePatches::set_mips(vk::Stream& stream, std::span<const float> vertices,
+                             std::span<const shared::PatchMips> faces) const {
+    const State& s = *state_;
+    AG_ASSERT(s.has_maps(), "height maps");
+    AG_ASSERT(vertices.size() == s.layout.vertex_count, "a mip level for every vertex");
+    AG_ASSERT(faces.size() == s.layout.face_count, "mip levels for every face");
+    stream.upload(vertices, s.vertex_mips);
+    stream.upload(faces, s.mips);
+    stream.barrier();
+    const shared::PatchControlArgs args = {0, 0, s.mesh.address(), 0, 0};
+    stream.run(s.kernels.heights, args,
+               vk::group_count(s.layout.vertex_count, shared::kPatchGroup));
+    stream.barrier();
+    stream.run(s.kernels.normals, args,
+               vk::group_count(s.layout.vertex_count, shared::kPatchGroup));
 }
 
 void DevicePatches::evaluate(vk::Stream& stream, const DevicePattern& pattern, Levels levels,

@@ -29,6 +29,14 @@ Result<DevicePattern> upload_triangle_pattern(vk::Stream& stream, int segments);
 Result<DevicePattern> upload_quad_pattern(vk::Stream& stream, int segments);
 Result<DevicePattern> upload_nested_pattern(vk::Stream& stream, int segments);
 
+/// What the faces of a part of a mesh have in common.
+struct PatchKind {
+    PatchShape shape = PatchShape::pn;
+    NormalField normals = NormalField::quadratic;
+    shared::Displacement displacement = {};
+    const HeightMap* map = nullptr;  ///< where it is kHeightMapDisplacement
+};
+
 /// What stays the same of a coarse mesh, beside its topology.
 struct DevicePatchInput {
     /// [vertex] Where in the array of positions a vertex finds its own; empty: it has its number.
@@ -36,7 +44,12 @@ struct DevicePatchInput {
     /// [half-edge] Likewise, of normals; empty: a corner has its half-edge's number.
     std::span<const uint32_t> corner_normal = {};
     std::span<const shared::ShapeTags> tags = {};   ///< [vertex]; empty: none
-    const DisplacementMap* displacement = nullptr;  ///< null: none
+    const DisplacementMap* displacement = nullptr;  ///< of all faces; null: none
+    /// Where parts of the mesh differ, in place of `displacement` and of the options' shape and
+    /// normals: all kinds, and that of each vertex, which is the kind of all its faces.
+    std::span<const PatchKind> kinds = {};
+    std::span<const uint32_t> kind_of = {};  ///< [vertex]
+    std::span<const vec2> uvs = {};          ///< [half-edge] in the height maps of `kinds`
 };
 
 /// Curved patches over an animated coarse mesh, on the device: what Patches does on the host. In
@@ -63,10 +76,21 @@ public:
 
     /// What update() made of positions, edges and directions; the rest of it stays empty.
     /// Synchronisation  Waits for all that was recorded.
+    /// Errors           device_lost, out_of_memory
     Result<PatchControl> download_control(vk::Stream& stream) const;
 
     /// Levels of faces, [face_count]; see shared::PatchLevels. Starts and ends without barrier.
     void set_levels(vk::Stream& stream, std::span<const shared::PatchLevels> levels) const;
+
+    /// Other displacements than those of before, by kind, with the same height maps.
+    /// Synchronisation  Starts and ends without barrier; update() goes by them.
+    void set_displacements(vk::Stream& stream, std::span<const shared::Displacement> by_kind);
+
+    /// Mip levels of height maps, in place of those of the displacements.
+    /// Shapes           vertices [vertex_count], faces [face_count]
+    /// Synchronisation  Follows update() and a barrier; ends without one.
+    void set_mips(vk::Stream& stream, std::span<const float> vertices,
+                  std::span<const shared::PatchMips> faces) const;
 
     /// A pattern's vertices on `face_count` faces from `first_face` on, all of them triangles or
     /// all quads as the pattern is: `positions` and `normals` are the addresses of

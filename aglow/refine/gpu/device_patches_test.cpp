@@ -198,6 +198,115 @@ TEST_CASE("displaced patches on the device lie where those of the host do, witho
         displacement.settings.kind = kind;
         check_small(comparison.compare(mesh, {}, true, &displacement, t), mesh);
     }
+    const PatchOptions flat = {PatchShape::flat, NormalField::linear};
+    check_small(comparison.compare(mesh, flat, false, &displacement, t), mesh);
+}
+
+TEST_CASE("parts of a mesh have shapes, height maps and mip levels of their own") {
+    vk::TestDevice device;
+    if (!device) return;
+    vk::TestStream test(device);
+    // Two sheets that do not touch.
+    const PatchMesh one = random_sheet(5, 2, 2, 0);
+    PolygonList polygons;
+    PatchMesh mesh;
+    std::vector<uint32_t> kind_of;
+    for (uint32_t copy = 0; copy < 2; ++copy) {
+        const auto first = static_cast<uint32_t>(mesh.positions.size());
+        for (const uint32_t v : one.topology.vertex) polygons.corners.push_back(first + v);
+        for (const vec3 p : one.positions) mesh.positions.push_back(p);
+        for (const vec3 n : one.normals) mesh.normals.push_back(n);
+        for (const vec2 uv : one.uvs) mesh.uvs.push_back(uv);
+        kind_of.resize(mesh.positions.size(), copy);
+        for (uint32_t f = 0; f < one.topology.face_count(); ++f)
+            polygons.face_begin.push_back(polygons.face_begin.back() + 3);
+    }
+    polygons.vertex_count = static_cast<uint32_t>(mesh.positions.size());
+    mesh.topology = topology_of(polygons);
+    DisplacementMap map;
+    map.map = make_height_map(std::array{0.0f, 1.0f, 0.5f, 0.25f, 0.3f, 0.9f, 0.1f, 0.2f}, 4, 2);
+    map.uvs = one.uvs;
+    map.settings.kind = shared::kHeightMapDisplacement;
+    map.settings.amplitude = 0.3f;
+    map.settings.map = map.map.levels;
+    const HeightMap other = make_height_map(std::array{0.0f, 1.0f}, 2, 1);
+    const std::array kinds = {
+        refine::gpu::PatchKind{PatchShape::pn, NormalField::quadratic, {}, nullptr},
+        refine::gpu::PatchKind{PatchShape::flat, NormalField::linear, map.settings, &map.map},
+        refine::gpu::PatchKind{PatchShape::flat, NormalField::linear, map.settings, &other}};
+    std::vector<uint32_t> device_kind;
+    for (const uint32_t copy : kind_of) device_kind.push_back(copy);
+    DevicePatches patches = demand(DevicePatches::create(
+        test.stream, mesh.topology, {}, {.kinds = kinds, .kind_of = device_kind, .uvs = mesh.uvs}));
+    CHECK(patches.displacement() == shared::kMixedDisplacement);
+    const vk::Buffer in_positions = test.upload(mesh.positions);
+    const vk::Buffer in_normals = test.upload(mesh.normals);
+    const DevicePattern pattern = demand(refine::gpu::upload_triangle_pattern(test.stream, 4));
+    const uint32_t faces = one.topology.face_count();
+    const vk::Buffer out = test.make<vec3>(2 * faces * pattern.vertex_count);
+    const vk::Buffer normals = test.make<vec3>(2 * faces * pattern.vertex_count);
+    const Tessellation t = demand(Tessellation::uniform(one.topology, 4));
+    for (const float level : {0.0f, 0.7f}) {
+        CAPTURE(level);
+        map.settings.level = level;
+        map.settings.amplitude = 0.3f + level;
+        test.stream.barrier();
+        patches.set_displacements(test.stream,
+                                  std::array{shared::Displacement{}, map.settings, map.settings});
+        const std::vector<float> vertex_mips(mesh.positions.size(), level);
+        const std::vector<shared::PatchMips> mips(2 * faces, {{level, level, level, level}, level});
+        test.stream.barrier();
+        patches.update(test.stream, in_positions.address(), in_normals.address());
+        test.stream.barrier();
+        patches.set_mips(test.stream, vertex_mips, mips);
+        test.stream.barrier();
+        patches.evaluate(test.stream, pattern, DevicePatches::Levels::uniform, 0, 2 * faces,
+                         out.address(), normals.address());
+        const auto places = test.download<vec3>(out, 2 * faces * pattern.vertex_count);
+        for (uint32_t copy = 0; copy < 2; ++copy) {
+            const Patches host =
+                demand(Patches::create(one.topology, {kinds[copy].shape, kinds[copy].normals}));
+            PatchControl control;
+            host.update(one.input(), control);
+            std::vector<vec3> expected(t.vertex_count());
+            if (copy == 0)
+                host.evaluate(control, t, expected);
+            else
+                host.evaluate(control, t, map, expected, {});
+            float worst = 0;
+            for (uint32_t f = 0; f < faces; ++f) {
+                const std::vector<uint32_t> vertices = pattern_vertices(one.topology, t, f);
+                for (size_t v = 0; v < vertices.size(); ++v) {
+                    const size_t place = (copy * faces + f) * size_t{pattern.vertex_count} + v;
+                    worst = std::max(worst, length(places[place] - expected[vertices[v]]));
+                }
+            }
+            CHECK(worst <= kAgreement * diagonal(one));
+        }
+    }
+}
+
+TEST_CASE("control points come back from the device as the host makes them") {
+    vk::TestDevice device;
+    if (!device) return;
+    vk::TestStream test(device);
+    const PatchMesh mesh = random_sheet(8, 3, 2, 0.3f);
+    PatchControl control;
+    demand(Patches::create(mesh.topology, {})).update(mesh.input(), control);
+    const DevicePatches patches = demand(DevicePatches::create(test.stream, mesh.topology, {}));
+    const vk::Buffer positions = test.upload(mesh.positions), normals = test.upload(mesh.normals);
+    test.stream.barrier();
+    patches.update(test.stream, positions.address(), normals.address());
+    const PatchControl there = demand(patches.download_control(test.stream));
+    REQUIRE(there.edges.size() == control.edges.size());
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+        CHECK(length(there.positions[v] - mesh.positions[v]) == 0);
+        CHECK(length(there.directions[v] - control.directions[v]) < 1e-6f);
+    }
+    for (size_t e = 0; e < control.edges.size(); ++e) {
+        CHECK(length(there.edges[e].first - control.edges[e].first) < 1e-5f);
+        CHECK(length(there.edges[e].second - control.edges[e].second) < 1e-5f);
+    }
 }
 
 TEST_CASE("twelve coarse triangles become 786 432 that a sine displaces") {

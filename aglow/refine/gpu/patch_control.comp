@@ -35,10 +35,11 @@ void gather_normals(PatchMesh mesh, PatchFace face, inout DevicePatch result) {
             result.n[i] = tagged_normal(result.n[i], flat_normal(result.p, face.corners),
                                         bounded_tags(mesh.tags.at[face.vertex[i]]).sharpness);
     }
+    uint quadratic = mesh.kinds.at[face.kind].quadratic;
     for (uint i = 0u; i < face.corners; ++i) {
         uint next = i + 1u == face.corners ? 0u : i + 1u;
         result.n[face.corners + i] =
-            mesh.quadratic == 1u
+            quadratic == 1u
                 ? quadratic_middle(result.p[next] - result.p[i], result.n[i], result.n[next])
                 : linear_middle(result.n[i], result.n[next]);
     }

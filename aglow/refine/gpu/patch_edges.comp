@@ -11,9 +11,9 @@ layout(push_constant, scalar) uniform Push { PatchControlArgs args; };
 
 ShapeTags tags_of(PatchMesh mesh, uint vertex) { return bounded_tags(mesh.tags.at[vertex]); }
 
-EdgePoints points_of(PatchMesh mesh, PatchEdgeEnds ends, PatchEdge e) {
-    if (mesh.shape == kFlatPatch) return phong_edge_points(e, 0.0f);
-    if (mesh.shape == kPhongPatch) return phong_edge_points(e, mesh.phong_shape);
+EdgePoints points_of(PatchMesh mesh, PatchEdgeEnds ends, PatchEdge e, uint shape) {
+    if (shape == kFlatPatch) return phong_edge_points(e, 0.0f);
+    if (shape == kPhongPatch) return phong_edge_points(e, mesh.phong_shape);
     if (mesh.tagged == 0u) return pn_edge_points(e);
     return tagged_edge_points(e, tags_of(mesh, ends.low), tags_of(mesh, ends.high));
 }
@@ -30,10 +30,11 @@ void main() {
     e.left_b = args.normals.at[ends.left_high];
     e.right_a = args.normals.at[ends.right_low];
     e.right_b = args.normals.at[ends.right_high];
-    mesh.edge_points.at[edge] = points_of(mesh, ends, e);
+    PatchKind kind = mesh.kinds.at[mesh.vertex_kind.at[ends.low]];
+    mesh.edge_points.at[edge] = points_of(mesh, ends, e, kind.shape);
     vec3 at_low = mesh.directions.at[ends.low];
     vec3 at_high = mesh.directions.at[ends.high];
-    mesh.edge_directions.at[edge] = mesh.quadratic == 1u
+    mesh.edge_directions.at[edge] = kind.quadratic == 1u
                                         ? quadratic_middle(e.b - e.a, at_low, at_high)
                                         : linear_middle(at_low, at_high);
 }

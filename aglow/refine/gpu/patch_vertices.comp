@@ -4,11 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "aglow/vk/kernel.glsl"
-#include "aglow/shared/displacement.h"
-
-layout(constant_id = 0) const uint kPatchDisplacement = kNoDisplacement;
-const uint kPatchCorners = 0u;
-#include "aglow/refine/gpu/patch_surface.glsl"
+#include "aglow/shared/device_patch.h"
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Push { PatchControlArgs args; };
@@ -25,10 +21,4 @@ void main() {
     for (uint i = begin; i < end; ++i)
         sum += args.normals.at[mesh.corner_normal.at[mesh.fans.at[i]]];
     mesh.directions.at[vertex] = unit_or(sum, sum);
-
-    if (kPatchDisplacement != kHeightMapDisplacement || begin == end) return;
-    Displacement d = mesh.displacement.at[0];
-    float heights = 0.0f;
-    for (uint i = begin; i < end; ++i) heights += map_height(mesh, d, mesh.uvs.at[mesh.fans.at[i]]);
-    mesh.vertex_heights.at[vertex] = heights / float(end - begin);
 }

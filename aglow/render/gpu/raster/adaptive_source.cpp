@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/refine/gpu/device_patches.h"
 #include "aglow/refine/lod.h"
 #include "aglow/refine/pattern.h"
 #include "aglow/render/gpu/raster/adaptive.mesh.h"
 #include "aglow/render/gpu/raster/adaptive.vert.h"
-#include "aglow/render/gpu/raster/control_scene.h"
-#include "aglow/render/gpu/raster/corner_normals.h"
 #include "aglow/render/gpu/raster/face_bins.h"
 #include "aglow/render/gpu/raster/hidden_edges.h"
 #include "aglow/render/gpu/raster/pattern_drawer.h"
+#include "aglow/render/gpu/raster/scene_patches.h"
 #include "aglow/render/gpu/raster/vertex_source.h"
 #include "aglow/shared/raster_pattern.h"
 
@@ -17,8 +15,6 @@
 
 namespace aglow::render::gpu {
 namespace {
-
-using refine::gpu::DevicePatches;
 
 constexpr float kNearest = 1e-3f;  // of what is drawn: what is nearer gets no finer
 
@@ -56,15 +52,14 @@ float size_of(const std::vector<vec3>& positions) {
 
 class AdaptiveSource : public VertexSource {
 public:
-    AdaptiveSource(const mesh::gpu::DeviceSurfaces& surfaces, ControlScene control,
-                   std::vector<uint8_t> one_sided, const LodOptions& options, CornerNormals normals,
-                   DevicePatches patches, PatternDrawer drawer)
+    AdaptiveSource(const mesh::gpu::DeviceSurfaces& surfaces, ScenePatches patches,
+                   std::vector<uint8_t> one_sided, const LodOptions& options, PatternDrawer drawer)
         : surfaces_(surfaces),
-          control_(std::move(control)),
-          one_sided_(std::move(one_sided)),
-          lod_(options),
-          normals_(std::move(normals)),
           patches_(std::move(patches)),
+          one_sided_(std::move(one_sided)),
+          details_(patches_.details()),
+          reach_(patches_.reach()),
+          lod_(options),
           drawer_(std::move(drawer)) {}
 
     Status make_buffers(vk::Stream& stream);
@@ -80,18 +75,18 @@ public:
     }
     uint64_t triangles(Layer layer, std::span<const FaceRange> faces) const override;
     float tolerance() const override { return tolerance_; }
-    float overhang() const override { return 0.5f; }  // control points are a third of an edge off
+    uint32_t displacement() const override { return patches_.patches().displacement(); }
+    float overhang() const override { return patches_.overhang(); }
 
 private:
-    void set_levels(vk::Stream& stream, std::span<const float> levels) const;
     void choose_blended(const FaceSizes& sizes, std::span<const uint32_t> blended);
 
     const mesh::gpu::DeviceSurfaces& surfaces_;
-    ControlScene control_;
-    std::vector<uint8_t> one_sided_;
+    ScenePatches patches_;
+    std::vector<uint8_t> one_sided_;   // [face]
+    std::vector<EdgeDetail> details_;  // [edge], or empty
+    std::vector<float> reach_;         // [face], or empty
     LevelOfDetail lod_;
-    CornerNormals normals_;
-    DevicePatches patches_;
     PatternDrawer drawer_;
     vk::Buffer patch_of_, geometry_, faces_;
     FaceBins bins_;
@@ -101,27 +96,17 @@ private:
 };
 
 Status AdaptiveSource::make_buffers(vk::Stream& stream) {
-    AG_TRY(patch_of_, vk::make_buffer_of(stream, std::span<const uint32_t>(control_.patch_of),
-                                         "patches of triangles"));
-    AG_TRY(faces_, stream.make_buffer(control_.patch_of.size() * sizeof(uint32_t),
+    AG_TRY(patch_of_,
+           vk::make_buffer_of(stream, std::span<const uint32_t>(patches_.control().patch_of),
+                              "patches of triangles"));
+    AG_TRY(faces_, stream.make_buffer(patches_.control().patch_of.size() * sizeof(uint32_t),
                                       "triangles by their patterns"));
     AG_TRY(geometry_, stream.make_buffer(sizeof(shared::RasterPattern), "patches"));
-    const shared::RasterPattern geometry{patches_.mesh(), patch_of_.address(), patches_.levels(),
-                                         drawer_.steps(), drawer_.triangles()};
+    const shared::RasterPattern geometry{patches_.patches().mesh(), patch_of_.address(),
+                                         patches_.patches().levels(), drawer_.steps(),
+                                         drawer_.triangles()};
     stream.upload(std::span(&geometry, 1), geometry_);
     return {};
-}
-
-void AdaptiveSource::set_levels(vk::Stream& stream, std::span<const float> levels) const {
-    const Topology& topology = control_.topology;
-    std::vector<shared::PatchLevels> of_faces(topology.face_count());
-    for (size_t f = 0; f < of_faces.size(); ++f) {
-        const uint32_t first = topology.face_begin[f];
-        of_faces[f].inner = 1;
-        for (uint32_t i = 0; i < 3; ++i) of_faces[f].edge[i] = levels[topology.edge[first + i]];
-        of_faces[f].edge[3] = 1;
-    }
-    patches_.set_levels(stream, of_faces);
 }
 
 /// All blended faces are drawn with the largest of their patterns, so that they stay in order; what
@@ -139,19 +124,18 @@ Status AdaptiveSource::update(vk::Stream& stream, const Shot& shot) {
     PatchControl control;
     {
         const vk::Stream::Scope scope(stream, "refine");
-        patches_.update(stream, surfaces_.positions(),
-                        normals_.update(stream, surfaces_.positions(), surfaces_.normals()));
-        AG_TRY(control, patches_.download_control(stream));
+        patches_.update(stream, surfaces_);
+        AG_TRY(control, patches_.patches().download_control(stream));
     }
     const vk::Stream::Scope scope(stream, "levels");
-    const Topology& topology = control_.topology;
+    const Topology& topology = patches_.control().topology;
     const std::vector<uint8_t> hidden =
-        hidden_edges(topology, control, one_sided_, shot.projection);
+        hidden_edges(topology, control, one_sided_, reach_, shot.projection);
     const LevelOfDetail::Choice choice = lod_.choose(
-        topology, control, viewpoint_of(shot.view, size_of(control.positions)), {hidden, {}});
+        topology, control, viewpoint_of(shot.view, size_of(control.positions)), {hidden, details_});
     tolerance_ = choice.tolerance;
-    set_levels(stream, choice.levels);
-    const FaceSizes sizes = face_sizes(topology, control_.patch_of, choice.levels);
+    patches_.set_levels(stream, choice.levels);
+    const FaceSizes sizes = face_sizes(topology, patches_.control().patch_of, choice.levels);
     bins_ = face_bins(sizes, shot.layers);
     choose_blended(sizes, shot.blended);
     stream.upload(std::span<const uint32_t>(bins_.faces), faces_);
@@ -173,23 +157,15 @@ uint64_t AdaptiveSource::triangles(Layer layer, std::span<const FaceRange> /*fac
 Result<std::unique_ptr<VertexSource>> make_adaptive_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
     const Surfaces& rest, const RasterOptions& options) {
-    AG_TRY(ControlScene control, control_scene(scene, rest, options.refinement.crease_angle));
-    refine::gpu::DevicePatchInput input;
-    input.vertex_source = control.vertex_source;
-    AG_TRY(CornerNormals normals, CornerNormals::create(stream, control));
-    input.corner_normal = normals.number();
-    input.tags = control.tags;
-    AG_TRY(DevicePatches patches,
-           DevicePatches::create(stream, control.topology, PatchOptions{}, input));
+    AG_TRY(ScenePatches patches, ScenePatches::create(stream, scene, rest, options.refinement, 1));
     AG_TRY(PatternDrawer drawer,
            PatternDrawer::create(stream, kMostAdaptiveSegments, options.mesh_shaders));
-    std::vector<uint8_t> one_sided = one_sided_faces(scene, rest, control);
+    std::vector<uint8_t> one_sided = one_sided_faces(scene, rest, patches.control());
     LodOptions lod;
     lod.tolerance = options.refinement.tolerance;
     lod.budget = options.refinement.budget;
-    auto source =
-        std::make_unique<AdaptiveSource>(surfaces, std::move(control), std::move(one_sided), lod,
-                                         std::move(normals), std::move(patches), std::move(drawer));
+    auto source = std::make_unique<AdaptiveSource>(surfaces, std::move(patches),
+                                                   std::move(one_sided), lod, std::move(drawer));
     AG_CHECK(source->make_buffers(stream));
     return source;
 }

@@ -341,7 +341,7 @@ TEST_CASE("edges are hidden beyond the picture and behind, never where a face sh
     const auto hidden = [&](const View& view, bool one_sided) {
         const std::vector<uint8_t> sides(topology.face_count(), one_sided ? 1 : 0);
         const Box box{{-1, -1, -1}, {1, 1, 1}};
-        return hidden_edges(topology, patches, sides, projection_of(view, box));
+        return hidden_edges(topology, patches, sides, {}, projection_of(view, box));
     };
     const auto fraction = [](const std::vector<uint8_t>& edges) {
         double sum = 0;

@@ -3,7 +3,11 @@
 
 #include "aglow/refine/creases.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace aglow::render::gpu {
@@ -98,6 +102,46 @@ void map_faces(const Mesh& mesh, const Placement& placement, const Topology& top
         patch_of[triangle_of[topology.source_face[f]]] = first_face + f;
 }
 
+/// The height map of a mesh, which all its primitives that have triangles must name.
+Result<const DisplacementRef*> displacement_of(const Mesh& mesh) {
+    const DisplacementRef* found = nullptr;
+    bool is_first = true;
+    for (const Primitive& p : mesh.primitives) {
+        if (p.triangles.empty()) continue;
+        const DisplacementRef* own = p.displacement ? &*p.displacement : nullptr;
+        const bool same = own && found ? *own == *found : own == found;
+        if (!is_first && !same)
+            return fail(Errc::unsupported,
+                        fmt::format("mesh \"{}\": its primitives name several displacement maps, "
+                                    "which --refine cannot draw; give each a mesh of its own",
+                                    mesh.name));
+        found = own;
+        is_first = false;
+    }
+    return found;
+}
+
+double area(std::span<const vec3> positions, std::span<const uvec3> triangles) {
+    double sum = 0;
+    for (const uvec3 t : triangles)
+        sum += 0.5 * static_cast<double>(length(
+                         cross(positions[t.y] - positions[t.x], positions[t.z] - positions[t.x])));
+    return sum;
+}
+
+/// By how much longer than in the mesh lengths are where it is placed in the rest pose.
+float scale_of(const Mesh& mesh, const Placement& placement, const Surfaces& rest) {
+    double in_mesh = 0, in_world = 0;
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const Primitive& primitive = mesh.primitives[p];
+        in_mesh += area(primitive.positions, primitive.triangles);
+        in_world += area(rest.positions,
+                         std::span(rest.triangles)
+                             .subspan(placement.first_triangle[p], primitive.triangles.size()));
+    }
+    return in_mesh > 0 ? static_cast<float>(std::sqrt(in_world / in_mesh)) : 1.0f;
+}
+
 }  // namespace
 
 Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest,
@@ -124,8 +168,18 @@ Result<ControlScene> control_scene(const Scene& scene, const Surfaces& rest,
             result.vertex_source.push_back(placement.first_vertex[at.primitive] + at.vertex);
             result.tags.push_back(tags_of(mesh, at));
         }
-        for (const VertexOf at : control.corners)
+        AG_TRY(const DisplacementRef* const heights, displacement_of(mesh));
+        if (heights)
+            result.displaced.push_back({*heights, static_cast<uint32_t>(placement.first_part),
+                                        scale_of(mesh, placement, rest)});
+        const auto kind = heights ? static_cast<uint32_t>(result.displaced.size()) : 0u;
+        result.kind_of.resize(result.kind_of.size() + control.vertices.size(), kind);
+        for (const VertexOf at : control.corners) {
             result.corner_source.push_back(placement.first_vertex[at.primitive] + at.vertex);
+            const auto& sets = mesh.primitives[at.primitive].texcoords;
+            result.uvs.push_back(heights ? sets[static_cast<size_t>(heights->texcoord)][at.vertex]
+                                         : vec2{0, 0});
+        }
         append(result.topology, control.topology);
         result.lacks_normals.resize(result.topology.face_count(),
                                     crease_angle || !has_own_normals(mesh));

@@ -99,8 +99,9 @@ Status RasterRenderer::make_footage(const Surfaces& rest) {
 Result<vk::GraphicsPipeline> RasterRenderer::surface_pipeline(Layer layer) const {
     const bool cut = layer == Layer::cut || layer == Layer::cut_both_sides;
     const bool one_sided = layer == Layer::opaque || layer == Layer::cut;
-    const std::array<uint32_t, 2> constants{footage_->tables().has_textures() ? 1u : 0u,
-                                            cut || layer == Layer::blended ? 1u : 0u};
+    const std::array<uint32_t, 3> constants{footage_->tables().has_textures() ? 1u : 0u,
+                                            cut || layer == Layer::blended ? 1u : 0u,
+                                            source_->displacement()};
     vk::GraphicsShaders shaders = source_->shaders();
     shaders.fragment = shaders::surface_frag;
     vk::GraphicsState state;

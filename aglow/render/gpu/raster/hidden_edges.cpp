@@ -11,12 +11,29 @@ namespace {
 constexpr size_t kGrain = 2048;
 constexpr float kAway = -0.35f;  // sine of 20 degrees
 
-/// Bit i: the point is beyond side i of the picture.
-uint32_t sides_beyond(const Projection& projection, vec3 p) {
-    const vec4 q = projection.clip(p);
-    return (q.x > q.w ? 1u : 0u) | (q.x < -q.w ? 2u : 0u) | (q.y > q.w ? 4u : 0u) |
-           (q.y < -q.w ? 8u : 0u);
-}
+/// The planes through the sides of a picture.
+class Sides {
+public:
+    explicit Sides(const Projection& projection) : eye_(projection.eye) {
+        for (size_t i = 0; i < 4; ++i) {
+            const vec4 across = projection.rows[i / 2] * (i % 2 == 0 ? -1.0f : 1.0f);
+            const vec4 plane = projection.rows[3] + across;
+            planes_[i] = plane * (1 / length(vec3{plane.x, plane.y, plane.z}));
+        }
+    }
+    /// Bit i: the point is farther than `reach` beyond side i.
+    uint32_t beyond(vec3 p, float reach) const {
+        const vec3 d = p - eye_;
+        uint32_t bits = 0;
+        for (size_t i = 0; i < 4; ++i)
+            bits |= dot(planes_[i], vec4{d.x, d.y, d.z, 1}) < -reach ? 1u << i : 0u;
+        return bits;
+    }
+
+private:
+    vec3 eye_;
+    std::array<vec4, 4> planes_;
+};
 
 /// Sine of the angle by which a surface at `p` turns to the viewer.
 float towards(const Projection& projection, vec3 p, vec3 normal) {
@@ -31,35 +48,30 @@ float towards(const Projection& projection, vec3 p, vec3 normal) {
 }  // namespace
 
 std::vector<uint8_t> hidden_edges(const Topology& topology, const PatchControl& control,
-                                  std::span<const uint8_t> one_sided,
+                                  std::span<const uint8_t> one_sided, std::span<const float> reach,
                                   const Projection& projection) {
-    std::vector<uint8_t> at_vertex(topology.vertex_count()), at_edge(topology.edge_count());
-    parallel_for(at_vertex.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t v = begin; v < end; ++v)
-            at_vertex[v] = static_cast<uint8_t>(sides_beyond(projection, control.positions[v]));
-    });
-    parallel_for(at_edge.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t e = begin; e < end; ++e)
-            at_edge[e] = static_cast<uint8_t>(sides_beyond(projection, control.edges[e].first) &
-                                              sides_beyond(projection, control.edges[e].second));
-    });
+    const Sides sides(projection);
     std::vector<uint8_t> hidden_face(topology.face_count());
     parallel_for(hidden_face.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t f = begin; f < end; ++f) {
             const uint32_t first = topology.face_begin[f];
+            const float moved = reach.empty() ? 0 : reach[f];
             uint32_t beyond = 15;
-            bool away = one_sided[f] != 0;
+            bool away = one_sided[f] != 0 && moved == 0;
             vec3 corner[3], corners = {0, 0, 0}, points = {0, 0, 0};
             for (uint32_t i = 0; i < 3; ++i) {
-                const uint32_t v = topology.vertex[first + i], e = topology.edge[first + i];
+                const uint32_t v = topology.vertex[first + i];
+                const shared::EdgePoints& edge = control.edges[topology.edge[first + i]];
                 corner[i] = control.positions[v];
                 corners += corner[i];
-                points += control.edges[e].first + control.edges[e].second;
-                beyond &= at_vertex[v] & at_edge[e];
+                points += edge.first + edge.second;
+                beyond &= sides.beyond(corner[i], moved);
+                if (beyond != 0)
+                    beyond &= sides.beyond(edge.first, moved) & sides.beyond(edge.second, moved);
                 away = away && towards(projection, corner[i], control.directions[v]) < kAway;
             }
             const vec3 middle = shared::patch_center(corners, points);
-            beyond &= sides_beyond(projection, middle);
+            if (beyond != 0) beyond &= sides.beyond(middle, moved);
             away = away && towards(projection, middle,
                                    cross(corner[1] - corner[0], corner[2] - corner[0])) < kAway;
             hidden_face[f] = beyond != 0 || away ? 1 : 0;

@@ -3,7 +3,7 @@
 #include "aglow/render/gpu/raster/raster.glsl"
 #include "aglow/shared/raster_pattern.h"
 
-const uint kPatchDisplacement = kNoDisplacement;
+layout(constant_id = 2) const uint kPatchDisplacement = kNoDisplacement;
 const uint kPatchCorners = 3u;
 #include "aglow/refine/gpu/patch_surface.glsl"
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "aglow/refine/gpu/device_patches.h"
-#include "aglow/render/gpu/raster/control_scene.h"
-#include "aglow/render/gpu/raster/corner_normals.h"
 #include "aglow/render/gpu/raster/pattern.mesh.h"
 #include "aglow/render/gpu/raster/pattern.vert.h"
 #include "aglow/render/gpu/raster/pattern_drawer.h"
+#include "aglow/render/gpu/raster/scene_patches.h"
 #include "aglow/render/gpu/raster/vertex_source.h"
 #include "aglow/shared/raster_pattern.h"
 
@@ -13,15 +11,11 @@
 namespace aglow::render::gpu {
 namespace {
 
-using refine::gpu::DevicePatches;
-
 class PatternSource : public VertexSource {
 public:
-    PatternSource(const mesh::gpu::DeviceSurfaces& surfaces, CornerNormals normals,
-                  DevicePatches patches, PatternDrawer drawer, uint32_t segments,
-                  vk::Buffer patch_of, vk::Buffer geometry)
+    PatternSource(const mesh::gpu::DeviceSurfaces& surfaces, ScenePatches patches,
+                  PatternDrawer drawer, uint32_t segments, vk::Buffer patch_of, vk::Buffer geometry)
         : surfaces_(surfaces),
-          normals_(std::move(normals)),
           patches_(std::move(patches)),
           drawer_(std::move(drawer)),
           segments_(segments),
@@ -34,12 +28,11 @@ public:
 
     Status update(vk::Stream& stream, const Shot& /*shot*/) override {
         const vk::Stream::Scope scope(stream, "refine");
-        const shared::RasterPattern geometry{patches_.mesh(), patch_of_.address(),
-                                             patches_.levels(), drawer_.steps(),
+        const shared::RasterPattern geometry{patches_.patches().mesh(), patch_of_.address(),
+                                             patches_.patches().levels(), drawer_.steps(),
                                              drawer_.triangles()};
         stream.upload(std::span(&geometry, 1), geometry_);
-        patches_.update(stream, surfaces_.positions(),
-                        normals_.update(stream, surfaces_.positions(), surfaces_.normals()));
+        patches_.update(stream, surfaces_);
         return {};
     }
     uint64_t geometry() const override { return geometry_.address(); }
@@ -49,12 +42,12 @@ public:
     void draw(vk::Stream& stream, const SurfacePass& pass, const FaceDraw& draw) const override {
         drawer_.draw(stream, pass, draw);
     }
-    float overhang() const override { return 0.5f; }  // control points are a third of an edge off
+    uint32_t displacement() const override { return patches_.patches().displacement(); }
+    float overhang() const override { return patches_.overhang(); }
 
 private:
     const mesh::gpu::DeviceSurfaces& surfaces_;
-    CornerNormals normals_;
-    DevicePatches patches_;
+    ScenePatches patches_;
     PatternDrawer drawer_;
     uint32_t segments_;
     vk::Buffer patch_of_, geometry_;
@@ -66,24 +59,17 @@ Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const mesh::gpu::DeviceSurfaces& surfaces,
                                                           const Scene& scene, const Surfaces& rest,
                                                           const RasterOptions& options) {
-    const Refinement& refinement = options.refinement;
-    AG_TRY(const ControlScene control, control_scene(scene, rest, refinement.crease_angle));
-    refine::gpu::DevicePatchInput input;
-    input.vertex_source = control.vertex_source;
-    AG_TRY(CornerNormals normals, CornerNormals::create(stream, control));
-    input.corner_normal = normals.number();
-    if (refinement.kind == Refinement::Kind::tagged) input.tags = control.tags;
-    AG_TRY(DevicePatches patches,
-           DevicePatches::create(stream, control.topology, PatchOptions{}, input));
-    const int segments = 1 << refinement.level;
+    const int segments = 1 << options.refinement.level;
+    AG_TRY(ScenePatches patches,
+           ScenePatches::create(stream, scene, rest, options.refinement, segments));
     AG_TRY(PatternDrawer drawer, PatternDrawer::create(stream, segments, options.mesh_shaders));
     AG_TRY(vk::Buffer patch_of,
-           vk::make_buffer_of(stream, std::span<const uint32_t>(control.patch_of),
+           vk::make_buffer_of(stream, std::span<const uint32_t>(patches.control().patch_of),
                               "patches of triangles"));
     AG_TRY(vk::Buffer geometry, stream.make_buffer(sizeof(shared::RasterPattern), "patches"));
-    return std::make_unique<PatternSource>(surfaces, std::move(normals), std::move(patches),
-                                           std::move(drawer), static_cast<uint32_t>(segments),
-                                           std::move(patch_of), std::move(geometry));
+    return std::make_unique<PatternSource>(surfaces, std::move(patches), std::move(drawer),
+                                           static_cast<uint32_t>(segments), std::move(patch_of),
+                                           std::move(geometry));
 }
 
 }  // namespace aglow::render::gpu

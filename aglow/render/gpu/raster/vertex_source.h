@@ -64,6 +64,9 @@ public:
     /// Pixels by which refined surfaces may be off; 0 where nobody set that.
     virtual float tolerance() const { return 0; }
 
+    /// Constant 2 of the vertex or mesh shader, a shared::k...Displacement.
+    virtual uint32_t displacement() const { return 0; }
+
     /// How far refined surfaces may leave the box about the coarse ones, as a share of its
     /// diagonal.
     virtual float overhang() const { return 0; }
@@ -81,12 +84,14 @@ Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
 Result<std::unique_ptr<VertexSource>> make_subdivision_source(
     vk::Stream& stream, const mesh::gpu::DeviceSurfaces& surfaces, const Scene& scene,
     const Surfaces& rest, const Refinement& refinement);
+
 /// Each run of faces like that.
 std::vector<FaceDraw> face_draws(std::span<const FaceRange> faces, FaceDraw like);
 
-/// Curved patches over the triangles, meshes welded, a pattern of 2^level segments drawn for each.
-/// `rest` is what `surfaces` was made from; `surfaces` must outlive it.
-/// Errors  out_of_memory, device_lost.
+/// Curved patches over the triangles, meshes welded, a pattern of 2^level segments drawn for each;
+/// flat ones where meshes name height maps, which displace them. `rest` is what `surfaces` was made
+/// from; `surfaces` must outlive it.
+/// Errors  unsupported, out_of_memory, device_lost; those of read_height_map().
 Result<std::unique_ptr<VertexSource>> make_pattern_source(vk::Stream& stream,
                                                           const mesh::gpu::DeviceSurfaces& surfaces,
                                                           const Scene& scene, const Surfaces& rest,
