@@ -327,7 +327,8 @@ TEST_CASE("a relief of a plane is the plane, raised; cells meet") {
             expected += 0.5 * double(cross(corner(i - 1) - corner(0), corner(i) - corner(0)).z);
         }
     CHECK(area == doctest::Approx(expected).epsilon(1e-5));
-    CHECK(raised.face.size() == raised.triangles.size());
+    CHECK(raised.face.size() == raised.positions.size());
+    CHECK(raised.coordinates.size() == raised.positions.size());
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ void add_relief(const Patches& patches, const PatchControl& control, uint32_t fa
     const auto first = static_cast<uint32_t>(out.positions.size());
     for (size_t v = 0; v < relief.positions.size(); ++v) {
         const vec3 p = relief.positions[v], n = relief.normals[v];
-        const PatchPlace place =
-            patches.at(control, face, cell.origin + cell.along_x * p.x + cell.along_y * p.y);
+        const vec2 foot = cell.origin + cell.along_x * p.x + cell.along_y * p.y;
+        const PatchPlace place = patches.at(control, face, foot);
         // The columns of the map at this vertex; normals go by its cofactors.
         const vec3 by_x = place.by_x * cell.along_x.x + place.by_y * cell.along_x.y;
         const vec3 by_y = place.by_x * cell.along_y.x + place.by_y * cell.along_y.y;
@@ -51,11 +51,11 @@ void add_relief(const Patches& patches, const PatchControl& control, uint32_t fa
             cross(by_y, by_z) * n.x + cross(by_z, by_x) * n.y + cross(by_x, by_y) * n.z;
         out.positions.push_back(place.position + by_z * p.z);
         out.normals.push_back(shared::unit_or(normal, place.normal));
-    }
-    for (const uvec3 t : relief.triangles) {
-        out.triangles.push_back({first + t.x, first + t.y, first + t.z});
         out.face.push_back(face);
+        out.coordinates.push_back(foot);
     }
+    for (const uvec3 t : relief.triangles)
+        out.triangles.push_back({first + t.x, first + t.y, first + t.z});
 }
 
 }  // namespace

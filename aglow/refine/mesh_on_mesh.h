@@ -24,8 +24,9 @@ struct ReliefOptions {
 
 struct RaisedMesh {
     std::vector<vec3> positions, normals;  ///< [vertex]; normals unit
+    std::vector<uint32_t> face;            ///< [vertex] it stands on
+    std::vector<vec2> coordinates;         ///< [vertex] there, of its foot
     std::vector<uvec3> triangles;
-    std::vector<uint32_t> face;  ///< [triangle] it stands on
 };
 
 /// Textures patches with meshes: sets `on_triangles` into every cell of a pattern on each triangle,

@@ -2,6 +2,7 @@
 #include "aglow/refine/refine_scene.h"
 
 #include "aglow/refine/pattern.h"
+#include "aglow/refine/scene/alike.h"
 #include "aglow/refine/scene/refine_mesh.h"
 #include "aglow/scene/gltf_source.h"
 
@@ -24,6 +25,9 @@ Status check_pattern(const RefineOptions& options) {
                     "only patches (pn, st, phong) have irregular patterns and a tolerance");
     if (pattern.eye && !pattern.irregular)
         return fail(Errc::bad_argument, "an eye draws the vertices of irregular patterns alone");
+    if (pattern.eye && options.share)
+        return fail(Errc::bad_argument,
+                    "an eye sees every mesh another way: nothing can be shared");
     if (!pattern.tolerance) return {};
     if (!(*pattern.tolerance > 0))
         return fail(Errc::bad_argument,
@@ -40,6 +44,19 @@ Status check_pattern(const RefineOptions& options) {
     return {};
 }
 
+Status check_model(const RefineOptions& options) {
+    if (!options.model) return {};
+    if (subdivides(options.scheme))
+        return fail(Errc::bad_argument, "only patches (pn, st, phong) carry models");
+    if (options.displacement || options.field)
+        return fail(Errc::bad_argument,
+                    "models stand on the smooth surface: leave displacement out");
+    if (options.model->repeats < 1 || options.model->triangles.empty())
+        return fail(Errc::bad_argument,
+                    "a model has triangles, and stands on a face once at least");
+    return {};
+}
+
 Status check_options(const RefineOptions& options) {
     const int finest = finest_level(options.scheme);
     if (options.level < 1 || options.level > finest)
@@ -53,7 +70,8 @@ Status check_options(const RefineOptions& options) {
                     "take catmull-clark");
     if (options.displacement && options.field)
         return fail(Errc::bad_argument, "a surface is displaced by a map or by a function");
-    return check_pattern(options);
+    AG_CHECK(check_pattern(options));
+    return check_model(options);
 }
 
 uint64_t triangle_count(const Scene& scene) {
@@ -67,7 +85,13 @@ uint64_t triangle_count(const Scene& scene) {
 Status check_size(const Scene& scene, const RefineOptions& options) {
     const bool thirds = options.scheme == RefineScheme::catmull_clark && !options.control.quads;
     const uint64_t coarse = triangle_count(scene);
-    const auto fine = [&](int level) { return (coarse << 2 * level) / 2 * (thirds ? 3 : 2); };
+    uint64_t models = 0;
+    if (const auto& model = options.model)
+        models = coarse * model->triangles.size() * static_cast<uint64_t>(model->repeats) *
+                 static_cast<uint64_t>(model->repeats);
+    const auto fine = [&](int level) {
+        return models + (coarse << 2 * level) / 2 * (thirds ? 3 : 2);
+    };
     if (fine(options.level) <= kMostRefinedTriangles) return {};
     int fits = options.level;
     while (fits > 0 && fine(fits) > kMostRefinedTriangles) --fits;
@@ -122,6 +146,60 @@ Result<Mesh> refined_mesh(const Scene& scene, const Mesh& mesh, const RefineOpti
     return refine::refine_mesh(mesh, flat, warnings);
 }
 
+/// One mesh after the other, each once.
+class SceneRefiner {
+public:
+    SceneRefiner(const Scene& scene, const RefineOptions& options)
+        : scene_(scene), options_(options), refined_(scene) {
+        if (options.pattern.eye) {
+            seen_ = options;
+        } else {
+            const bool moved = options.share && !options.field;
+            alike_ =
+                refine::find_alike(scene, moved ? refine::Motions::rigid : refine::Motions::none);
+        }
+    }
+
+    Status refine(size_t m) {
+        if (!alike_.empty() && alike_[m].mesh != m) {
+            copy(refined_.meshes[alike_[m].mesh], refined_.meshes[m]);
+            return {};
+        }
+        if (seen_) seen_->pattern.eye = eye_of_mesh(scene_, m, *options_.pattern.eye);
+        std::vector<std::string> warnings;
+        auto mesh = refined_mesh(scene_, scene_.meshes[m], seen_ ? *seen_ : options_, warnings);
+        const std::string name = fmt::format("mesh {} \"{}\"", m, scene_.meshes[m].name);
+        if (!mesh)
+            return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message),
+                        mesh.error().context);
+        refined_.meshes[m] = std::move(*mesh);
+        for (const std::string& warning : warnings)
+            refined_.warnings.push_back(fmt::format("{}: {}", name, warning));
+        return {};
+    }
+
+    Scene take() {
+        if (!alike_.empty()) refine::place_moved(refined_, alike_);
+        return std::move(refined_);
+    }
+
+private:
+    /// All but name, weights and materials.
+    static void copy(const Mesh& from, Mesh& to) {
+        for (size_t p = 0; p < to.primitives.size(); ++p) {
+            const int material = to.primitives[p].material;
+            to.primitives[p] = from.primitives[p];
+            to.primitives[p].material = material;
+        }
+    }
+
+    const Scene& scene_;
+    const RefineOptions& options_;
+    std::optional<RefineOptions> seen_;  // with the eye where the mesh sees it
+    std::vector<refine::Likeness> alike_;
+    Scene refined_;
+};
+
 }  // namespace
 
 int finest_level(RefineScheme scheme) {
@@ -135,25 +213,14 @@ Result<Scene> refine_scene(const Scene& scene, const RefineOptions& options,
                            const Monitor& monitor) try {
     AG_CHECK(check_options(options));
     AG_CHECK(check_size(scene, options));
-    Scene refined = scene;
-    std::optional<RefineOptions> seen;  // with the eye where the mesh sees it
-    if (options.pattern.eye) seen = options;
+    SceneRefiner refiner(scene, options);
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         if (monitor.cancelled()) return fail(Errc::cancelled, "interrupted");
         monitor("refine", static_cast<double>(m) / static_cast<double>(scene.meshes.size()));
-        std::vector<std::string> warnings;
-        if (seen) seen->pattern.eye = eye_of_mesh(scene, m, *options.pattern.eye);
-        auto mesh = refined_mesh(scene, scene.meshes[m], seen ? *seen : options, warnings);
-        const std::string name = fmt::format("mesh {} \"{}\"", m, scene.meshes[m].name);
-        if (!mesh)
-            return fail(mesh.error().code, fmt::format("{}: {}", name, mesh.error().message),
-                        mesh.error().context);
-        refined.meshes[m] = std::move(*mesh);
-        for (const std::string& warning : warnings)
-            refined.warnings.push_back(fmt::format("{}: {}", name, warning));
+        AG_CHECK(refiner.refine(m));
     }
     monitor("refine", 1);
-    return refined;
+    return refiner.take();
 } catch (const std::bad_alloc&) {
     return fail(Errc::out_of_memory,
                 "the refined scene does not fit into memory: take a lower "

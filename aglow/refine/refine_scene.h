@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace aglow {
 
@@ -40,6 +41,14 @@ struct PatternOptions {
     std::optional<float> tolerance;
 };
 
+/// A mesh to be set onto faces, +Y upwards: its middle on theirs, its lowest point on the surface,
+/// as wide as a quad is, or as the circle inside a triangle.
+struct SurfaceModel {
+    std::vector<vec3> positions, normals;  ///< [vertex]
+    std::vector<uvec3> triangles;
+    int repeats = 1;  ///< so many of them along an edge of a face
+};
+
 struct RefineOptions {
     RefineScheme scheme = RefineScheme::loop;
     int level = 1;       ///< 2^level segments to an edge
@@ -52,6 +61,12 @@ struct RefineOptions {
     /// place of a map.
     std::optional<shared::Displacement> field;
     PatternOptions pattern = {};  ///< patches
+    /// Closed meshes that are others turned and moved are refined as these are, and shown through
+    /// nodes that turn and move them.
+    bool share = false;
+    /// Set onto each face of patches, beside the refined surface and in its primitive: texture
+    /// coordinates and colours are those of the place that a vertex stands over.
+    std::optional<SurfaceModel> model;
 };
 
 /// The finest level that refine_scene() makes of a scheme.
@@ -81,10 +96,17 @@ inline constexpr uint64_t kMostRefinedTriangles = uint64_t{1} << 27;
 ///              scheme, for that is the surface its heights stand on. They are read from the
 ///              scene's folder.
 ///
+/// Likeness     meshes that differ in their materials alone are refined once; with options.share
+///              also those that a rigid motion takes onto each other, unless displacement by place
+///              tells them apart. These are the same mesh then, and each node that shows one has
+///              got a child with the motion that shows it instead.
+///
 /// Primitives keep their numbers; those without triangles stay as they are.
 /// Errors  bad_argument   level outside 1..finest_level(), limit or quads with a scheme that has
 ///                        none, both kinds of displacement, a pattern that the
-///                        scheme has not or a tolerance that displacement would break, more than
+///                        scheme has not or a tolerance that displacement would break, an eye
+///                        together with sharing, a model on what is subdivided, displaced, skinned
+///                        or morphed, more than
 ///                        kMostRefinedTriangles (how many)
 ///         those of read_height_map()
 ///         out_of_memory, cancelled

@@ -339,6 +339,212 @@ TEST_CASE("irregular and adaptive patterns meet bitwise and carry attributes alo
         CHECK(p.colors[v].x == doctest::Approx(0.5f + p.positions[v].y).epsilon(1e-5));
 }
 
+namespace {
+
+/// A drum, the same turned and moved as an exporter bakes it into vertices, one of another
+/// material, one that is larger, and an open one that is moved.
+Scene drums() {
+    constexpr vec4 kTurn = {0.48f, -0.6f, 0, 0.64f};
+    Scene scene = drum();
+    scene.meshes.resize(5, scene.meshes[0]);
+    const mat4 motion = compose({3, -1, 7}, kTurn, {1, 1, 1});
+    Primitive& moved = scene.meshes[1].primitives[0];
+    for (vec3& p : moved.positions) p = transform_point(motion, p);
+    for (vec3& n : moved.normals) n = transform_direction(motion, n);
+    scene.meshes[2].primitives[0].material = 7;
+    for (vec3& p : scene.meshes[3].primitives[0].positions) p = p * 1.01f;
+    Primitive& open = scene.meshes[4].primitives[0];
+    for (vec3& p : open.positions) p.x += 2;
+    open.triangles.pop_back();
+    scene.meshes.push_back(scene.meshes[4]);
+    for (vec3& p : scene.meshes[5].primitives[0].positions) p.x += 2;
+    for (int m = 1; m < 6; ++m) scene.nodes.emplace_back().mesh = m;
+    scene.nodes[1].translation = {0, 1, 0};
+    scene.nodes[1].name = "moved";
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("sharing gives the same surface, from fewer meshes") {
+    for (const RefineScheme scheme : kSchemes) {
+        RefineOptions options;
+        options.scheme = scheme;
+        options.level = 2;
+        const Scene apart = refined(drums(), options);
+        options.share = true;
+        const Scene shared = refined(drums(), options);
+        // The moved drum alone is another, placed; the rest is as it was.
+        CHECK(apart.nodes.size() == 6);
+        REQUIRE(shared.nodes.size() == 7);
+        CHECK(shared.nodes[1].mesh == -1);
+        CHECK(shared.nodes[1].children == std::vector<int>{6});
+        CHECK(shared.nodes[6].parent == 1);
+        CHECK(shared.nodes[6].mesh == 1);
+        CHECK(shared.nodes[6].name == "moved");
+        const auto primitive = [](const Scene& of, size_t m) { return of.meshes[m].primitives[0]; };
+        CHECK(same_geometry(primitive(shared, 1), primitive(shared, 0)));
+        CHECK(same_geometry(primitive(shared, 2), primitive(shared, 0)));
+        CHECK(primitive(shared, 2).material == 7);
+        for (const size_t m : {3u, 4u, 5u})
+            CHECK(same_geometry(primitive(shared, m), primitive(apart, m)));
+
+        const Surfaces a = pose(apart), b = pose(shared);
+        REQUIRE(a.triangles.size() == b.triangles.size());
+        // Nodes come in another order: the placed one is last.
+        Box box;
+        for (const vec3 p : a.positions) box.add(p);
+        const float size = length(box.hi - box.lo);
+        const size_t each = primitive(apart, 0).positions.size();
+        const size_t open = primitive(apart, 4).positions.size();
+        REQUIRE(a.positions.size() == 4 * each + 2 * open);
+        const auto there = [&](size_t v) {  // where vertex v of `apart` is in `shared`
+            if (v < each) return v;
+            return v < 2 * each ? v + 2 * each + 2 * open : v - each;
+        };
+        for (size_t v = 0; v < a.positions.size(); ++v)
+            CHECK(length(a.positions[v] - b.positions[there(v)]) < 1e-6f * size);
+    }
+}
+
+TEST_CASE("what tells copies apart is not shared") {
+    RefineOptions options;
+    options.share = true;
+    const auto placed = [&](const Scene& scene) {
+        return refined(scene, options).nodes.size() - scene.nodes.size();
+    };
+    CHECK(placed(drums()) == 1);
+    Scene other = drums();
+    other.meshes[1].primitives[0].colors[3].z = 1;
+    CHECK(placed(other) == 0);
+    other = drums();
+    other.meshes[1].primitives[0].creases = {{0, 1, 2}};
+    CHECK(placed(other) == 0);
+    other = drums();
+    for (vec3& p : other.meshes[1].primitives[0].positions) p.x = -p.x;  // mirrored
+    CHECK(placed(other) == 0);
+    other = drums();
+    other.meshes[1].primitives[0].positions[5].y += 1e-4f;
+    CHECK(placed(other) == 0);
+    other = drums();
+    other.nodes[1].instances = {mat4{}, mat4{}};
+    CHECK(placed(other) == 0);
+    options.field = shared::Displacement{};
+    options.field->kind = shared::kSineDisplacement;
+    options.field->amplitude = 0.1f;
+    options.field->frequency = {1, 2, 3};
+    CHECK(placed(drums()) == 0);
+}
+
+TEST_CASE("a node that carries more than a mesh keeps it, and every node that shows one moves it") {
+    Scene scene = drums();
+    scene.nodes.emplace_back().mesh = 1;
+    scene.nodes[1].children = {2};
+    scene.nodes[2].parent = 1;
+    RefineOptions options;
+    options.share = true;
+    const Scene shared = refined(scene, options);
+    REQUIRE(shared.nodes.size() == 9);
+    CHECK(shared.nodes[1].children == std::vector<int>{2, 7});
+    CHECK(shared.nodes[1].translation == vec3{0, 1, 0});
+    CHECK(shared.nodes[8].parent == 6);
+}
+
+namespace {
+
+/// The top of the cube, 2 m wide at y = 1.
+Scene cube_top() {
+    Scene plane = cube();
+    plane.meshes[0].primitives.erase(plane.meshes[0].primitives.begin());
+    return plane;
+}
+
+/// A spike of 4 triangles, 3 m wide and 6 m high, somewhere.
+SurfaceModel spike(int repeats) {
+    SurfaceModel model;
+    model.positions = {{4, 2, 4}, {7, 2, 4}, {7, 2, 7}, {4, 2, 7}, {5.5f, 8, 5.5f}};
+    model.normals.assign(5, {0, 1, 0});
+    model.triangles = {{1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+    model.repeats = repeats;
+    return model;
+}
+
+/// The vertices that a model added, after those of the surface.
+std::vector<vec3> tips(const Primitive& p, float above) {
+    std::vector<vec3> found;
+    for (const vec3 x : p.positions)
+        if (x.y > above) found.push_back(x);
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("models stand on triangles as tall as they are wide, in the middle") {
+    RefineOptions options;
+    options.scheme = RefineScheme::pn;
+    options.level = 2;
+    const size_t bare = triangle_count(refined(cube_top(), options));
+    options.model = spike(1);
+    const Scene scene = refined(cube_top(), options);
+    const Primitive& p = scene.meshes[0].primitives[0];
+    CHECK(p.triangles.size() == bare + 2 * 4);
+    // Twice as tall as wide; as wide as the circle in an equilateral triangle of the mean edge.
+    const float edge = (4 * 2 + std::sqrt(8.0f)) / 5, tall = 2 * edge / std::sqrt(3.0f);
+    const std::vector<vec3> at = tips(p, 1.5f);
+    REQUIRE(at.size() == 2);
+    CHECK(at[0].y == doctest::Approx(1 + tall));
+    // The middles of the two triangles are opposite each other, a third of the way.
+    CHECK(length(at[0] + at[1] - vec3{0, 2 * (1 + tall), 0}) < 1e-5f);
+    CHECK(std::fabs(at[0].x) == doctest::Approx(1 / 3.0f));
+    CHECK(std::fabs(at[0].z) == doctest::Approx(1 / 3.0f));
+    CHECK(p.positions.size() == p.texcoords[0].size());
+    for (const vec3 n : p.normals) CHECK(n.y == doctest::Approx(1));
+}
+
+TEST_CASE("models repeat over quads, fill their cells and take the colour of the place") {
+    RefineOptions options;
+    options.scheme = RefineScheme::pn;
+    options.level = 1;
+    options.control.quads = true;
+    options.model = spike(3);
+    const Scene scene = refined(cube_top(), options);
+    const Primitive& p = scene.meshes[0].primitives[0];
+    CHECK(p.triangles.size() == 8 + 9 * 4);
+    const std::vector<vec3> at = tips(p, 1.5f);
+    REQUIRE(at.size() == 9);
+    for (const vec3 tip : at) {
+        CHECK(tip.y == doctest::Approx(1 + 2 * 2 / 3.0f));
+        // Middles of cells: multiples of 2/3.
+        CHECK(std::fabs(1.5f * tip.x - std::round(1.5f * tip.x)) < 1e-5f);
+        CHECK(std::fabs(1.5f * tip.z - std::round(1.5f * tip.z)) < 1e-5f);
+    }
+    Box box;
+    for (size_t v = 0; v < p.positions.size(); ++v) {
+        box.add(p.positions[v]);
+        CHECK(p.texcoords[0][v].x == doctest::Approx(0.5f + 0.5f * p.positions[v].z));
+        CHECK(p.texcoords[0][v].y == doctest::Approx(0.5f + 0.5f * p.positions[v].x));
+    }
+    CHECK(length(box.lo - vec3{-1, 1, -1}) < 1e-6f);
+}
+
+TEST_CASE("models go onto nothing that moves") {
+    RefineOptions options;
+    options.scheme = RefineScheme::pn;
+    options.model = spike(1);
+    Scene scene = cube_top();
+    scene.meshes[0].primitives[0].targets.resize(1);
+    const auto result = refine_scene(scene, options);
+    REQUIRE(!result);
+    CHECK(result.error().message.find("morph") != std::string::npos);
+    options.scheme = RefineScheme::loop;
+    CHECK(refine_scene(cube_top(), options).error().message.find("pn, st, phong") !=
+          std::string::npos);
+    options.scheme = RefineScheme::pn;
+    options.field.emplace();
+    CHECK(refine_scene(cube_top(), options).error().message.find("smooth surface") !=
+          std::string::npos);
+}
+
 TEST_CASE("what makes no sense is refused with what to do") {
     const Scene scene = cube();
     const auto says = [&](const RefineOptions& options) {
@@ -368,6 +574,9 @@ TEST_CASE("what makes no sense is refused with what to do") {
     options.scheme = RefineScheme::pn;
     options.pattern.eye.emplace();
     CHECK(says(options).find("irregular") != std::string::npos);
+    options.pattern.irregular = options.share = true;
+    CHECK(says(options).find("shared") != std::string::npos);
+    options.share = false;
     options.pattern = {};
     options.pattern.tolerance = 0.0f;
     CHECK(says(options).find("above 0") != std::string::npos);

@@ -34,4 +34,18 @@ std::vector<Splat> make_splats(std::span<const vec3> positions, std::span<const 
     return splats;
 }
 
+SplatRadii splat_radii(const Scene& scene) {
+    SplatRadii radii;
+    for (const Mesh& mesh : scene.meshes) {
+        auto& of_mesh = radii.emplace_back();
+        for (const Primitive& p : mesh.primitives) {
+            auto& of_primitive = of_mesh.emplace_back();
+            if (p.triangles.empty()) continue;
+            for (const Splat& splat : make_splats(p.positions, p.normals, p.triangles))
+                of_primitive.push_back(splat.radius);
+        }
+    }
+    return radii;
+}
+
 }  // namespace aglow

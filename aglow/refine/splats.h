@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "aglow/core/math.h"
+#include "aglow/scene/rewrite_gltf.h"
+#include "aglow/scene/scene.h"
 
 #include <span>
 #include <vector>
@@ -21,5 +23,8 @@ struct Splat {
 ///         primitive.
 std::vector<Splat> make_splats(std::span<const vec3> positions, std::span<const vec3> normals,
                                std::span<const uvec3> triangles);
+
+/// Their radii alone, for every primitive of a scene with triangles, as rewrite_gltf() takes them.
+SplatRadii splat_radii(const Scene& scene);
 
 }  // namespace aglow

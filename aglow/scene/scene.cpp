@@ -4,6 +4,7 @@
 #include "aglow/scene/photometry.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace aglow {
 namespace {
@@ -32,7 +33,18 @@ vec4 face(double azimuth, double elevation) {
             static_cast<float>(cy * cp)};
 }
 
+/// Positions first: they are what differs.
+auto geometry_of(const Primitive& p) {
+    return std::tie(p.positions, p.normals, p.triangles, p.texcoords, p.colors, p.joints, p.weights,
+                    p.influences, p.targets, p.sharpness, p.tension, p.bias, p.creases, p.corners,
+                    p.displacement, p.tangents, p.source_vertex, p.lightmap_uvs);
+}
+
 }  // namespace
+
+bool same_geometry(const Primitive& a, const Primitive& b) {
+    return geometry_of(a) == geometry_of(b);
+}
 
 void add_point_light(Scene& scene, vec3 position, float flux) {
     Light light;

@@ -69,6 +69,7 @@ struct Material {
 struct MorphTarget {
     std::vector<vec3> positions;  ///< [vertex_count] displacements, or empty
     std::vector<vec3> normals;    ///< [vertex_count] displacements, or empty
+    bool operator==(const MorphTarget&) const = default;
 };
 
 /// An edge, by its ends, that subdivision keeps sharp for `sharpness` levels; 10 and above for
@@ -127,6 +128,9 @@ struct Primitive {
     /// [vertex_count] second UV set for light, in the unit square of the mesh; filled by unwrap().
     std::vector<vec2> lightmap_uvs;
 };
+
+/// Are they alike in all but their material?
+bool same_geometry(const Primitive& a, const Primitive& b);
 
 struct Mesh {
     std::string name;

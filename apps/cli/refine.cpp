@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "aglow/refine/refine_scene.h"
 
+#include "aglow/mesh/surfaces.h"
+#include "aglow/refine/splats.h"
 #include "aglow/render/camera.h"
 #include "aglow/scene/load.h"
 #include "aglow/scene/rewrite_gltf.h"
@@ -18,6 +20,7 @@ namespace aglow::cli {
 namespace {
 
 constexpr uint32_t kNoiseOctaves = 5;
+constexpr int kMostRepeats = 64;
 
 /// A height map, or a function of place.
 using DisplaceOption = std::variant<std::filesystem::path, shared::Displacement>;
@@ -31,6 +34,9 @@ struct Options {
     bool creases_at_normals = false;
     bool quads = false;
     bool round_corners = false;
+    std::filesystem::path model;
+    std::optional<int> model_repeats;
+    bool splats = false, share = false;
     bool irregular = false;
     std::string camera;
     std::optional<double> tolerance;
@@ -91,12 +97,20 @@ Table table(Options& o) {
         {"--quads", flag(&o.quads), "", "join pairs of triangles to quads first; not with loop"},
         {"--round-corners", flag(&o.round_corners), "",
          "subdivision: round the corners of open meshes too"},
+        {"--share", flag(&o.share), "",
+         "store closed meshes once that are turned and moved copies, and place them by nodes"},
         {"--pattern", choice<bool>(&o.irregular, {{"even", false}, {"irregular", true}}), "NAME",
          "pn, st, phong: vertices lie evenly (default), or irregular: denser where it bends"},
         {"--camera", text(&o.camera), "N|NAME|auto",
          "--pattern irregular: denser near this camera of the scene, too"},
         {"--tolerance", number_above(&o.tolerance, 0), "METRES",
          "pn, st, phong: no more segments to an edge than keep it this near to the curve"},
+        {"--mesh-on-mesh", file(&o.model), "FILE",
+         "pn, st, phong: set the triangles of this scene onto every face, +Y upwards"},
+        {"--mesh-repeats", whole(&o.model_repeats, 1, kMostRepeats), "N",
+         "so many of them along an edge of a face (default 1)"},
+        {"--splats", flag(&o.splats), "",
+         "write points with NORMAL and _RADIUS in place of triangles"},
         {"--displace", parsed(&o.displace, parse_displace), "HEIGHTS",
          "height map over TEXCOORD_0: .png (16 bit: 0..1), .exr or .hdr; or by place, "
          "sin:A,FX,FY,FZ or noise:A,F"},
@@ -118,7 +132,19 @@ Status check(const Options& o) {
                     "--displace-scale and --displace-bias go with --displace FILE");
     if (!o.camera.empty() && !o.irregular)
         return fail(Errc::bad_argument, "--camera goes with --pattern irregular");
+    if (o.model_repeats && o.model.empty())
+        return fail(Errc::bad_argument, "--mesh-repeats goes with --mesh-on-mesh FILE");
     return check_output(o.output, {".glb", ".gltf"}, o.input);
+}
+
+/// All triangles of a scene, at rest.
+Result<SurfaceModel> read_model(const std::filesystem::path& path, int repeats) {
+    AG_TRY(const Scene scene, load_scene(path));
+    Surfaces surfaces = pose(scene);
+    if (surfaces.triangles.empty())
+        return fail(Errc::bad_argument, "the model has no triangles", path.string());
+    return SurfaceModel{std::move(surfaces.positions), std::move(surfaces.normals),
+                        std::move(surfaces.triangles), repeats};
 }
 
 /// Where the camera is at rest.
@@ -137,8 +163,12 @@ Result<RefineOptions> refine_options(const Options& o) {
     if (o.crease) options.control.crease_angle = static_cast<float>(*o.crease) * (kPi / 180);
     options.control.crease_at_normals = o.creases_at_normals;
     options.control.quads = o.quads;
+    options.share = o.share;
     options.pattern.irregular = o.irregular;
     if (o.tolerance) options.pattern.tolerance = static_cast<float>(*o.tolerance);
+    if (!o.model.empty()) {
+        AG_TRY(options.model, read_model(o.model, o.model_repeats.value_or(1)));
+    }
     if (const auto* field = std::get_if<shared::Displacement>(&o.displace)) options.field = *field;
     if (!has_map(o)) return options;
     AG_TRY(HeightMap map, read_height_map(std::get<std::filesystem::path>(o.displace)));
@@ -175,13 +205,16 @@ Result<int> run(const Options& options, Console& console) {
     const double made = total.seconds();
     show_warnings(result, options.input, console);
     AG_CHECK(console.go_on("write"));
-    AG_TRY(const RewrittenFiles files, rewrite_gltf(result, options.output));
+    AG_TRY(
+        const RewrittenFiles files,
+        rewrite_gltf(result, options.output, options.splats ? splat_radii(result) : SplatRadii()));
     for (const std::string& warning : files.warnings)
         console.warn(options.input.string() + ": " + warning);
     print_report(console, {{"scene", options.input.string()},
                            {"level", options.level},
                            {"coarse", counts(scene)},
                            {"refined", counts(result)},
+                           {"placed_copies", result.nodes.size() - scene.nodes.size()},
                            {"seconds",
                             {{"load", rounded_seconds(loaded)},
                              {"refine", rounded_seconds(made - loaded)},

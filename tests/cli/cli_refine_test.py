@@ -23,6 +23,14 @@ def document_of(glb):
     return json.loads(data[20:20 + length]), data[28 + length:]
 
 
+def values_of(document, binary, index, layout):
+    """The elements of an accessor."""
+    accessor = document["accessors"][index]
+    start = document["bufferViews"][accessor["bufferView"]].get("byteOffset", 0)
+    return list(struct.iter_unpack(
+        layout, binary[start:start + struct.calcsize(layout) * accessor["count"]]))
+
+
 def validate(files):
     """Errors that the Khronos validator finds; none where it is not installed."""
     if not (ROOT / "node_modules" / "gltf-validator").exists():
@@ -129,11 +137,9 @@ class Refinement(harness.AglowTest):
     def test_functions_of_place_displace(self):
         self.run_aglow("refine", "plane.gltf", "-o", "waves.glb", "--level", "6",
                        "--displace", "sin:0.5,1,0,0.5")
-        primitive, binary = document_of(self.dir / "waves.glb")
-        accessor = primitive["accessors"][
-            primitive["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
-        start = primitive["bufferViews"][accessor["bufferView"]].get("byteOffset", 0)
-        for x, y, z in struct.iter_unpack("<3f", binary[start:start + 12 * accessor["count"]]):
+        document, binary = document_of(self.dir / "waves.glb")
+        attributes = document["meshes"][0]["primitives"][0]["attributes"]
+        for x, y, z in values_of(document, binary, attributes["POSITION"], "<3f"):
             self.assertAlmostEqual(y, 0.5 * math.sin(x + 0.5 * z), places=5)
         self.run_aglow("refine", "plane.gltf", "-o", "rough.glb", "--level", "6",
                        "--displace", "noise:0.25,0.7")
@@ -160,6 +166,74 @@ class Refinement(harness.AglowTest):
         self.assertNotEqual((self.dir / "chess2.glb").read_bytes(),
                             (self.dir / "chess3.glb").read_bytes())
 
+    def test_pieces_that_differ_in_colour_are_stored_once(self):
+        self.run_aglow("scene", "chess", "-o", "set.glb")
+        self.run_aglow("refine", "set.glb", "-o", "set-fine.glb", "--level", "3")
+        self.assertEqual(validate([self.dir / "set-fine.glb"]), "")
+        written, _ = document_of(self.dir / "set-fine.glb")
+        vertices = {}
+        for mesh in written["meshes"]:
+            vertices[mesh["name"]] = [p["attributes"]["POSITION"] for p in mesh["primitives"]]
+        for piece in ("pawn", "bishop", "queen", "king"):
+            self.assertEqual(vertices[f"white {piece}"], vertices[f"black {piece}"])
+
+    def test_splats_lie_on_the_surface_and_cover_it(self):
+        report = self.json_of("refine", "plane.gltf", "-o", "splats.glb", "--level", "3",
+                              "--splats")
+        self.assertEqual(validate([self.dir / "splats.glb"]), "")
+        document, binary = document_of(self.dir / "splats.glb")
+        primitive = document["meshes"][0]["primitives"][0]
+        self.assertEqual(primitive["mode"], 0)
+        self.assertNotIn("indices", primitive)
+        positions = values_of(document, binary, primitive["attributes"]["POSITION"], "<3f")
+        normals = values_of(document, binary, primitive["attributes"]["NORMAL"], "<3f")
+        radii = values_of(document, binary, primitive["attributes"]["_RADIUS"], "<f")
+        self.assertEqual(len(positions), report["refined"]["vertices"])
+        self.assertEqual(len(positions), 9 * 9)
+        self.assertEqual(len(radii), len(positions))
+        for normal in normals:
+            self.assertEqual([round(c, 6) for c in normal], [0, 1, 0])
+        self.assertEqual({p[1] for p in positions}, {0})
+        for i in range(50):
+            for j in range(50):
+                x, z = 0.4 * (i + 0.5) - 10, 0.4 * (j + 0.5) - 10
+                self.assertTrue(any((x - p[0]) ** 2 + (z - p[2]) ** 2 <= r[0] ** 2
+                                    for p, r in zip(positions, radii)), (x, z))
+
+    def test_splats_of_what_is_no_gltf(self):
+        (self.dir / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        self.run_aglow("refine", "tetra.obj", "-o", "tetra.glb", "--splats", "--level", "1")
+        self.assertEqual(validate([self.dir / "tetra.glb"]), "")
+        document, _ = document_of(self.dir / "tetra.glb")
+        primitive = document["meshes"][0]["primitives"][0]
+        self.assertEqual(primitive["mode"], 0)
+        self.assertEqual(document["accessors"][primitive["attributes"]["_RADIUS"]]["count"], 10)
+
+    def test_a_mesh_on_a_mesh(self):
+        report = self.json_of("refine", "plane.gltf", "-o", "studs.glb", "--level", "1",
+                              "--scheme", "pn", "--quads", "--mesh-on-mesh", "cube-tc58.glb",
+                              "--mesh-repeats", "4")
+        self.assertEqual(report["refined"]["triangles"], 8 + 16 * 12)
+        self.assertEqual(validate([self.dir / "studs.glb"]), "")
+        bounds = self.json_of("info", "studs.glb")["bounds"]  # cubes of a quarter of 20 m
+        for low, high, l, h in zip(bounds["low"], bounds["high"], (-10, 0, -10), (10, 5, 10)):
+            self.assertAlmostEqual(low, l, places=4)
+            self.assertAlmostEqual(high, h, places=4)
+
+    def test_moved_copies_are_placed(self):
+        self.run_aglow("scene", "living-room", "-o", "room.glb")
+        apart = self.json_of("refine", "room.glb", "-o", "apart.glb", "--level", "1")
+        shared = self.json_of("refine", "room.glb", "-o", "shared.glb", "--level", "1", "--share")
+        self.assertEqual(apart["placed_copies"], 0)
+        self.assertGreater(shared["placed_copies"], 0)
+        self.assertLess((self.dir / "shared.glb").stat().st_size,
+                        (self.dir / "apart.glb").stat().st_size)
+        self.assertEqual(validate([self.dir / "shared.glb"]), "")
+        a, b = (self.json_of("info", f"{name}.glb") for name in ("apart", "shared"))
+        self.assertEqual(a["triangles"], b["triangles"])
+        self.assertAlmostEqual(a["surface_area"], b["surface_area"], places=3)
+
     def test_errors_say_what_to_do_and_leave_no_file(self):
         refine = ("refine", "plane.gltf", "-o", "none.glb")
         crowd(self.dir / "crowd.gltf", self.dir / "plane.gltf")
@@ -183,6 +257,11 @@ class Refinement(harness.AglowTest):
             ((*refine, "--scheme", "pn", "--camera", "auto"), 1, "--pattern irregular"),
             ((*refine, "--scheme", "pn", "--pattern", "irregular", "--camera", "auto"), 1,
              "no camera"),
+            (("refine", "lit.glb", "-o", "none.glb", "--scheme", "pn", "--share", "--pattern",
+              "irregular", "--camera", "auto"), 1, "shared"),
+            ((*refine, "--mesh-on-mesh", "lit.glb"), 1, "pn, st, phong"),
+            ((*refine, "--scheme", "pn", "--mesh-on-mesh", "absent.glb"), 2, "absent.glb"),
+            ((*refine, "--mesh-repeats", "2"), 1, "--mesh-on-mesh FILE"),
             ((*refine, "--crease", "200"), 1, "--crease"),
             ((*refine, "--displace", "absent.png"), 2, "absent.png"),
             (("refine", "absent.glb", "-o", "none.glb"), 2, "absent.glb"),
@@ -205,9 +284,11 @@ class Refinement(harness.AglowTest):
         out = self.dir / "real"
         out.mkdir()
         for i, file in enumerate(files):
-            scheme = ("loop", "catmull-clark", "pn", "phong", "st")[i % 5]
-            done = aglow("refine", file, "-o", out / f"{i}.glb", "--level", "1", "--scheme", scheme,
-                         "--quiet", cwd=self.dir)
+            options = (["loop"], ["catmull-clark", "--splats"], ["pn", "--tolerance", "0.01"],
+                       ["phong", "--share"], ["st", "--pattern", "irregular"],
+                       ["loop", "--share", "--displace", "noise:0.01,3"])[i % 6]
+            done = aglow("refine", file, "-o", out / f"{i}.glb", "--level", "1", "--scheme",
+                         *options, "--quiet", cwd=self.dir)
             self.assertEqual(done.returncode, 0, f"{file}: {done.stderr}")
         self.assertEqual(validate(sorted(out.glob("*.glb"))), "")
 

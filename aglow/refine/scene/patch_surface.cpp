@@ -90,10 +90,7 @@ public:
 
     Status build(const RefineOptions& options, const Shape& rest) {
         const Topology& topology = control_.topology;
-        PatchOptions patch;
-        if (options.scheme == RefineScheme::phong) patch.shape = PatchShape::phong;
-        if (options.scheme == RefineScheme::flat) patch = {PatchShape::flat, NormalField::linear};
-        AG_TRY(patches_, Patches::create(topology, patch));
+        AG_TRY(patches_, Patches::create(topology, patch_options(options.scheme)));
         const std::vector<uint32_t> groups =
             corner_groups(topology, [&](uint32_t h, uint32_t other) {
                 return dot(rest.corner_normals[h], rest.corner_normals[other]) > kSameNormal;
@@ -191,6 +188,13 @@ private:
 };
 
 }  // namespace
+
+PatchOptions patch_options(RefineScheme scheme) {
+    if (scheme == RefineScheme::flat) return {PatchShape::flat, NormalField::linear};
+    PatchOptions options;
+    if (scheme == RefineScheme::phong) options.shape = PatchShape::phong;
+    return options;
+}
 
 Result<std::unique_ptr<RefinedSurface>> patch_surface(const ControlMesh& control,
                                                       const RefineOptions& options,

@@ -4,9 +4,11 @@
 #include "aglow/refine/patches.h"
 #include "aglow/refine/scene/displace.h"
 #include "aglow/refine/scene/refined_surface.h"
+#include "aglow/refine/scene/relief.h"
 #include "aglow/refine/scene/skin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -56,7 +58,9 @@ public:
         heights_ = heights();
         if (!heights_.empty()) displace(*surface_, heights_, rest_);
         AG_CHECK(refine_targets());
-        return in_primitives();
+        Mesh refined = in_primitives();
+        if (options_.model) AG_CHECK(add_models(refined));
+        return refined;
     }
 
 private:
@@ -286,19 +290,61 @@ private:
     void add_attributes(const Primitive& from, std::span<const uint32_t> vertices,
                         Primitive& out) const {
         out.texcoords.resize(from.texcoords.size());
-        for (const uint32_t v : vertices) {
-            const float* row = attributes_.data() + surface_->seams[v] * columns_.width();
-            for (size_t set = 0; set < out.texcoords.size(); ++set)
-                out.texcoords[set].push_back({row[2 * set], row[2 * set + 1]});
-            const float* c = row + columns_.color();
-            const auto channel = [&](int i) { return std::clamp(c[i], 0.0f, 1.0f); };
-            if (!from.colors.empty())
-                out.colors.push_back({channel(0), channel(1), channel(2), channel(3)});
-            const float* tags = row + columns_.tag();
-            if (!from.sharpness.empty()) out.sharpness.push_back(tags[0]);
-            if (!from.tension.empty()) out.tension.push_back(tags[1]);
-            if (!from.bias.empty()) out.bias.push_back(tags[2]);
+        for (const uint32_t v : vertices)
+            add_row(attributes_.data() + surface_->seams[v] * columns_.width(), from, out);
+    }
+
+    /// Columns of a vertex as the attributes that `from` has.
+    void add_row(const float* row, const Primitive& from, Primitive& out) const {
+        for (size_t set = 0; set < out.texcoords.size(); ++set)
+            out.texcoords[set].push_back({row[2 * set], row[2 * set + 1]});
+        const float* c = row + columns_.color();
+        const auto channel = [&](int i) { return std::clamp(c[i], 0.0f, 1.0f); };
+        if (!from.colors.empty())
+            out.colors.push_back({channel(0), channel(1), channel(2), channel(3)});
+        const float* tags = row + columns_.tag();
+        if (!from.sharpness.empty()) out.sharpness.push_back(tags[0]);
+        if (!from.tension.empty()) out.tension.push_back(tags[1]);
+        if (!from.bias.empty()) out.bias.push_back(tags[2]);
+    }
+
+    Status add_models(Mesh& refined) const {
+        for (const Primitive& p : mesh_.primitives)
+            if (!p.joints.empty() || !p.targets.empty())
+                return fail(Errc::bad_argument,
+                            "models stand still: they cannot go onto a mesh with a skin or morph "
+                            "targets");
+        AG_TRY(const RaisedMesh raised,
+               raise_model(control_, rest_shape(), shape_tags(), options_.scheme, *options_.model));
+        std::vector<uint32_t> number(raised.positions.size());
+        for (uint32_t v = 0; v < number.size(); ++v) {
+            const uint32_t p = control_.face_primitive[raised.face[v]];
+            Primitive& to = refined.primitives[p];
+            number[v] = static_cast<uint32_t>(to.positions.size());
+            to.positions.push_back(raised.positions[v]);
+            to.normals.push_back(raised.normals[v]);
+            add_row(row_at(raised.face[v], raised.coordinates[v]).data(), mesh_.primitives[p], to);
         }
+        for (const uvec3 t : raised.triangles)
+            refined.primitives[control_.face_primitive[raised.face[t.x]]].triangles.push_back(
+                {number[t.x], number[t.y], number[t.z]});
+        return {};
+    }
+
+    /// The columns at a place on a face, linear in those of its corners.
+    std::vector<float> row_at(uint32_t face, vec2 at) const {
+        const bool is_triangle = control_.topology.face_size(face) == 3;
+        const float x = at.x, y = at.y;
+        const std::array<float, 4> shares = {is_triangle ? 1 - x - y : (1 - x) * (1 - y),
+                                             is_triangle ? x : x * (1 - y), is_triangle ? y : x * y,
+                                             (1 - x) * y};
+        std::vector<float> row(columns_.width(), 0.0f), corner(columns_.width());
+        for (uint32_t i = 0; i < control_.topology.face_size(face); ++i) {
+            std::ranges::fill(corner, 0.0f);
+            put_row(control_.corners[control_.topology.face_begin[face] + i], corner.data());
+            for (size_t c = 0; c < row.size(); ++c) row[c] += shares[i] * corner[c];
+        }
+        return row;
     }
 
     void add_skin(std::span<const uint32_t> vertices, Primitive& out) const {

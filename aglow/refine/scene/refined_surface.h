@@ -2,6 +2,7 @@
 #pragma once
 #include "aglow/core/result.h"
 #include "aglow/mesh/control_mesh.h"
+#include "aglow/refine/patches.h"
 #include "aglow/refine/refine_scene.h"
 #include "aglow/refine/scene/cut_mesh.h"
 #include "aglow/shared/tagged_triangle.h"
@@ -56,6 +57,8 @@ public:
 /// Errors  those of Subdivision::create(), Patches::create() and Tessellation::uniform()
 Result<std::unique_ptr<RefinedSurface>> subdivision_surface(const ControlMesh& control,
                                                             const RefineOptions& options);
+/// What patches of a scheme are.
+PatchOptions patch_options(RefineScheme scheme);
 /// `rest` says where normals part; `tags` [vertex] may be empty.
 Result<std::unique_ptr<RefinedSurface>> patch_surface(const ControlMesh& control,
                                                       const RefineOptions& options,

@@ -8,7 +8,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace aglow::gltf::edit {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kQuantization = "KHR_mesh_quantization";
 constexpr int kUnsignedByte = 5121;
+constexpr int kPoints = 0;  // primitive.mode
 
 template <class T>
 std::span<const float> floats_of(const std::vector<T>& values) {
@@ -34,8 +38,9 @@ void set_bounds(Json& accessor, std::span<const vec3> values) {
 /// Writes the vertices of one primitive.
 class PrimitiveWriter {
 public:
-    PrimitiveWriter(Document& document, const Primitive& primitive, bool alpha)
-        : document_(document), primitive_(primitive), alpha_(alpha) {}
+    PrimitiveWriter(Document& document, const Primitive& primitive, std::span<const float> radii,
+                    bool alpha)
+        : document_(document), primitive_(primitive), radii_(radii), alpha_(alpha) {}
 
     Json attributes() {
         Json out = Json::object();
@@ -51,6 +56,8 @@ public:
         if (!primitive_.sharpness.empty()) out["_SHARPNESS"] = add(primitive_.sharpness, "SCALAR");
         if (!primitive_.tension.empty()) out["_TENSION"] = add(primitive_.tension, "SCALAR");
         if (!primitive_.bias.empty()) out["_BIAS"] = add(primitive_.bias, "SCALAR");
+        if (!radii_.empty())
+            out["_RADIUS"] = add_floats(document_, radii_, "SCALAR", kVertexTarget);
         return out;
     }
 
@@ -61,7 +68,9 @@ public:
         return out;
     }
 
+    /// -1 for points.
     int indices() {
+        if (!radii_.empty()) return -1;
         std::vector<uint32_t> values;
         values.reserve(3 * primitive_.triangles.size());
         for (const uvec3 t : primitive_.triangles) values.insert(values.end(), {t.x, t.y, t.z});
@@ -119,6 +128,7 @@ private:
 
     Document& document_;
     const Primitive& primitive_;
+    std::span<const float> radii_;
     bool alpha_;
 };
 
@@ -169,26 +179,64 @@ bool has_alpha(const Document& document, const Json& attributes) {
            document.json.at("accessors").at(static_cast<size_t>(color)).at("type") != "VEC3";
 }
 
-void replace(Document& document, Json& json, const Primitive& primitive,
-             std::set<std::string>& lost) {
-    const Json old = json.at("attributes");
-    const Json old_targets = list_of(json, "targets");
-    PrimitiveWriter writer(document, primitive, has_alpha(document, old));
-    // What goes, goes first, so that its slots are taken again.
-    release_all(document, old);
-    for (const Json& target : old_targets) release_all(document, target);
-    release_accessor(document, integer(json, "indices"));
-    drop_what_named_vertices(document, json);
-    add_sharp_tags(primitive, json);
-    json["attributes"] = writer.attributes();
-    json["indices"] = writer.indices();
-    json.erase("mode");  // a triangle list is the default
-    note_lost(old, json["attributes"], lost);
-    for (size_t t = 0; t < old_targets.size(); ++t) {
-        json["targets"][t] = writer.target(primitive.targets.at(t));
-        note_lost(old_targets[t], json["targets"][t], lost);
+/// What holds a primitive's vertices and triangles.
+struct Written {
+    const Primitive* primitive = nullptr;
+    bool alpha = false;
+    Json attributes, targets = Json::array();
+    int indices = -1;
+};
+
+/// Writes primitives; those that are alike share what holds them.
+class Replacer {
+public:
+    Replacer(Document& document, std::set<std::string>& lost) : document_(document), lost_(lost) {}
+
+    void replace(Json& json, const Primitive& primitive, std::span<const float> radii) {
+        const Json old = json.at("attributes");
+        const Json old_targets = list_of(json, "targets");
+        const bool alpha = has_alpha(document_, old);
+        // What goes, goes first, so that its slots are taken again.
+        release_all(document_, old);
+        for (const Json& target : old_targets) release_all(document_, target);
+        release_accessor(document_, integer(json, "indices"));
+        drop_what_named_vertices(document_, json);
+        if (radii.empty()) add_sharp_tags(primitive, json);
+        const Written& written = write(primitive, radii, alpha, old_targets.size());
+        json["attributes"] = written.attributes;
+        json.erase("indices");
+        json.erase("mode");  // a triangle list is the default
+        if (radii.empty())
+            json["indices"] = written.indices;
+        else
+            json["mode"] = kPoints;
+        note_lost(old, written.attributes, lost_);
+        for (size_t t = 0; t < old_targets.size(); ++t) {
+            json["targets"][t] = written.targets[t];
+            note_lost(old_targets[t], written.targets[t], lost_);
+        }
     }
-}
+
+private:
+    const Written& write(const Primitive& primitive, std::span<const float> radii, bool alpha,
+                         size_t target_count) {
+        auto& candidates = written_[{primitive.positions.size(), primitive.triangles.size()}];
+        for (const Written& w : candidates)
+            if (w.alpha == alpha && w.targets.size() == target_count &&
+                same_geometry(*w.primitive, primitive))
+                return w;
+        PrimitiveWriter writer(document_, primitive, radii, alpha);
+        Written& w = candidates.emplace_back(
+            Written{&primitive, alpha, writer.attributes(), Json::array(), writer.indices()});
+        for (size_t t = 0; t < target_count; ++t)
+            w.targets.push_back(writer.target(primitive.targets.at(t)));
+        return w;
+    }
+
+    Document& document_;
+    std::set<std::string>& lost_;
+    std::map<std::pair<size_t, size_t>, std::vector<Written>> written_;
+};
 
 /// What core glTF allows for an attribute; anything else asks for KHR_mesh_quantization.
 bool is_plain(const std::string& name, const Json& accessor) {
@@ -217,11 +265,13 @@ bool is_quantized(const Document& document) {
 
 }  // namespace
 
-Status replace_meshes(Document& document, const Scene& scene, std::vector<std::string>& warnings) {
+Status replace_meshes(Document& document, const Scene& scene, const SplatRadii& splats,
+                      std::vector<std::string>& warnings) {
     drop_meshopt(document);
     if (list_of(document.json, "meshes").size() != scene.meshes.size())
         return fail(Errc::malformed, "the file has other meshes than the scene");
     std::set<std::string> lost;
+    Replacer replacer(document, lost);
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
         const auto& primitives = scene.meshes[m].primitives;
         Json& list = document.json["meshes"][m]["primitives"];
@@ -232,7 +282,8 @@ Status replace_meshes(Document& document, const Scene& scene, std::vector<std::s
         for (size_t p = 0; p < primitives.size(); ++p) {
             if (primitives[p].triangles.empty()) continue;
             Json json = list[p];
-            replace(document, json, primitives[p], lost);
+            replacer.replace(json, primitives[p],
+                             splats.empty() ? std::span<const float>() : splats[m][p]);
             document.json["meshes"][m]["primitives"][p] = std::move(json);
         }
     }
