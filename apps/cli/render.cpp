@@ -3,20 +3,18 @@
 #include "aglow/render/camera.h"
 #include "aglow/render/frames.h"
 #include "aglow/render/rays.h"
-#include "aglow/render/tone_map.h"
-#include "aglow/scene/image_file.h"
 #include "aglow/transport/irradiance.h"
 #include "command.h"
-#include "frame_range.h"
 #include "frame_source.h"
+#include "refinement_option.h"
 #include "report.h"
 #include "scene_options.h"
+#include "sequence.h"
 #include "solver_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -29,7 +27,6 @@ constexpr int kRaysSamples = 16;
 constexpr int kPathSamples = 64;
 constexpr int kRasterSamples = 4;
 constexpr int kReflections = 2;
-constexpr double kFps = 30;
 constexpr int kMostBudget = 1'000'000'000;
 
 enum class Engine : uint8_t { rays, path, raster };
@@ -38,17 +35,10 @@ std::string name_of(Engine engine) {
     return engine == Engine::rays ? "rays" : engine == Engine::path ? "path" : "raster";
 }
 
-struct Size {
-    int width = 1280, height = 720;
-};
-
 struct Options {
     std::filesystem::path input;
-    std::filesystem::path output;
     Engine engine = Engine::rays;
-    std::string camera = "auto";
-    Size size;
-    std::optional<double> exposure;
+    SequenceOptions sequence;
     std::optional<int> samples;
     std::optional<int> bounces;
     std::optional<int> reflections;
@@ -57,55 +47,16 @@ struct Options {
     std::optional<Refinement> refine;
     std::optional<int> budget;
     std::optional<double> crease;  // degrees
-    std::optional<FrameRange> frames;
-    std::optional<double> fps;
     SceneOptions scene;
 };
 
-Result<Size> parse_size(const std::string& text) {
+Result<PictureSize> parse_size(const std::string& text) {
     const size_t cross = text.find('x');
     if (cross == std::string::npos)
         return fail(Errc::bad_argument, fmt::format("\"{}\" is not WIDTHxHEIGHT", text));
     AG_TRY(const int64_t width, parse_whole(text.substr(0, cross), 1, kLongestSide));
     AG_TRY(const int64_t height, parse_whole(text.substr(cross + 1), 1, kLongestSide));
-    return Size{static_cast<int>(width), static_cast<int>(height)};
-}
-
-/// What follows "auto:".
-Result<float> parse_tolerance(const std::string& text) {
-    AG_TRY(const double pixels, parse_number(text));
-    if (!(pixels >= kFinestTolerance && pixels <= kCoarsestTolerance))
-        return fail(Errc::bad_argument, fmt::format("auto:PIXELS goes from {} to {}, not {}",
-                                                    kFinestTolerance, kCoarsestTolerance, pixels));
-    return static_cast<float>(pixels);
-}
-
-Result<Refinement> parse_refinement(const std::string& text) {
-    using Kind = Refinement::Kind;
-    if (text == "none") return Refinement{};
-    if (text == "auto") return Refinement{.kind = Kind::automatic};
-    const std::map<std::string, Kind> kinds = {{"pn", Kind::pn},
-                                               {"st", Kind::tagged},
-                                               {"loop", Kind::loop},
-                                               {"catmull-clark", Kind::catmull_clark},
-                                               {"auto", Kind::automatic}};
-    const size_t colon = text.find(':');
-    const auto known = kinds.find(text.substr(0, colon));
-    if (known == kinds.end() || colon == std::string::npos)
-        return fail(Errc::bad_argument,
-                    fmt::format("\"{}\" is no refinement; there is none, pn:N, st:N, loop:N, "
-                                "catmull-clark:N, auto and auto:PIXELS",
-                                text));
-    Refinement refinement{.kind = known->second};
-    const std::string value = text.substr(colon + 1);
-    if (refinement.kind == Kind::automatic) {
-        AG_TRY(refinement.tolerance, parse_tolerance(value));
-        return refinement;
-    }
-    const int64_t least = refinement.kind == Kind::catmull_clark ? 1 : 0;
-    AG_TRY(const int64_t level, parse_whole(value, least, kMostRefinement));
-    refinement.level = static_cast<int>(level);
-    return refinement;
+    return PictureSize{static_cast<int>(width), static_cast<int>(height)};
 }
 
 Table table(Options& o) {
@@ -114,7 +65,7 @@ Table table(Options& o) {
          "scene; --engine rays and raster show the light that `aglow bake` left in "
          "it, else light that is direct",
          Need::required},
-        {"-o,--output", file(&o.output), "OUT",
+        {"-o,--output", file(&o.sequence.output), "OUT",
          "image: .png (tone-mapped), .exr or .hdr (luminance, cd/m^2)", Need::required},
         {"--engine",
          choice<Engine>(
@@ -123,9 +74,9 @@ Table table(Options& o) {
          "NAME",
          "rays (default): ray tracing over baked light; path: brute-force path tracing; raster: "
          "triangles on a GPU, without shadows or reflections but those that are baked"},
-        {"--camera", text(&o.camera), "N|NAME|auto",
+        {"--camera", text(&o.sequence.camera), "N|NAME|auto",
          "camera of the scene; auto (default): the first, else one that shows all"},
-        {"--size", parsed(&o.size, parse_size), "WxH", "pixels (default 1280x720)"},
+        {"--size", parsed(&o.sequence.size, parse_size), "WxH", "pixels (default 1280x720)"},
         {"--samples", whole(&o.samples, 1, kMostSamples), "N",
          fmt::format("rays or paths per pixel (default {} and {}); with --engine raster samples of "
                      "edges (default {})",
@@ -156,11 +107,12 @@ Table table(Options& o) {
          "fewer than the file has"},
         {"--bounces", parsed(&o.bounces, parse_bounces), "N|auto",
          "diffuse reflections with --engine path (default auto: all)"},
-        {"--frames", parsed(&o.frames, parse_frames), "A:B",
+        {"--frames", parsed(&o.sequence.frames, parse_frames), "A:B",
          "frames A to B of the animation, into OUT-0000.png and so on"},
-        {"--fps", number_above(&o.fps, 0), "N",
-         fmt::format("frames in a second; frame 0 is at second 0 (default {})", kFps)},
-        {"--exposure", number(&o.exposure, -100, 100), "EV",
+        {"--fps", number_above(&o.sequence.fps, 0), "N",
+         fmt::format("frames in a second; frame 0 is at second 0 (default {})",
+                     SequenceOptions::kFps)},
+        {"--exposure", number(&o.sequence.exposure, -100, 100), "EV",
          "exposure of a .png in steps of two (default: by the picture, or the first frame)"},
     };
     rows += scene_table(o.scene);
@@ -196,14 +148,14 @@ Status check_engine(const Options& options) {
 }
 
 Status check_contradictions(const Options& options, const Console& console) {
-    AG_CHECK(check_output(options.output, {".png", ".exr", ".hdr"}, options.input));
-    if (options.exposure && options.output.extension() != ".png")
+    AG_CHECK(check_output(options.sequence.output, {".png", ".exr", ".hdr"}, options.input));
+    if (options.sequence.exposure && options.sequence.output.extension() != ".png")
         return fail(Errc::bad_argument,
                     "--exposure belongs to a .png; .exr and .hdr hold cd/m^2 as they are");
-    if (options.frames && options.scene.time)
+    if (options.sequence.frames && options.scene.time)
         return fail(Errc::bad_argument,
                     "--frames and --time contradict each other; give one of them");
-    if (options.fps && !options.frames)
+    if (options.sequence.fps && !options.sequence.frames)
         return fail(Errc::bad_argument, "--fps belongs to --frames; give both, or --time");
     if (options.engine == Engine::path && console.options().device.starts_with("gpu"))
         return fail(Errc::unsupported, "--engine path runs on the CPU; use --device cpu");
@@ -275,105 +227,6 @@ Status open_source(const Options& options, Scene& scene, Console& console, Sourc
     return {};
 }
 
-/// Draws and writes the frames one by one.
-class Sequence {
-public:
-    Sequence(const Options& options, const Scene& scene, FrameRenderer& renderer, Console& console)
-        : options_(options), scene_(scene), renderer_(renderer), console_(console) {}
-
-    Status run() {
-        const FrameRange range = options_.frames.value_or(FrameRange{});
-        for (int frame = range.first; frame <= range.last; ++frame) {
-            const double share = 1.0 / (range.last - range.first + 1);
-            const double time =
-                options_.frames ? frame / options_.fps.value_or(kFps) : options_.scene.pose_time();
-            AG_TRY(const View view, view_at(time));
-            const Monitor whole = console_.monitor();
-            const Monitor part{[&](std::string_view stage, double fraction) {
-                                   whole.report(stage, (frame - range.first + fraction) * share);
-                               },
-                               whole.cancel};
-            AG_TRY(DrawnFrame drawn, renderer_.draw(time, view, part));
-            add(drawn);
-            AG_CHECK(write(std::move(drawn.luminance),
-                           options_.frames ? numbered(options_.output, frame) : options_.output));
-        }
-        return {};
-    }
-
-    void tell(Json& report) const {
-        report["accel"] = renderer_.accel();
-        if (options_.output.extension() == ".png") report["exposure_ev"] = exposure_.value_or(0);
-        report["frames"] = outputs_.size();
-        Json passes = Json::array();
-        for (const PassTime& pass : passes_)
-            passes.push_back({{"pass", pass.pass},
-                              {"seconds", pass.seconds / static_cast<double>(outputs_.size())}});
-        report["passes"] = passes;
-        if (triangles_ > 0) report["triangles"] = triangles_;
-        if (tolerance_ > 0) report["tolerance_pixels"] = tolerance_;
-        if (rays_.total() == 0) return;
-        report["rays"] = rays_.total();
-        report["rays_by_kind"] = {
-            {"camera", rays_.camera}, {"mirror", rays_.mirror}, {"shadow", rays_.shadow}};
-    }
-    const std::vector<std::filesystem::path>& outputs() const { return outputs_; }
-
-private:
-    /// A view that depends on the pose is that of the first frame, for all.
-    Result<View> view_at(double time) {
-        const auto [width, height] = options_.size;
-        AG_TRY(auto view, camera_view(scene_, options_.camera, width, height, time));
-        if (view) return *view;
-        if (!automatic_view_) {
-            const Surfaces surfaces = pose(scene_, time);
-            AG_TRY(const RayScene rays, RayScene::create(scene_, surfaces));
-            AG_TRY(automatic_view_,
-                   choose_view(scene_, surfaces, rays, options_.camera, width, height, time));
-        }
-        return *automatic_view_;
-    }
-
-    void add(const DrawnFrame& drawn) {
-        rays_ += drawn.rays;
-        triangles_ = std::max(triangles_, drawn.triangles);
-        tolerance_ = std::max(tolerance_, drawn.tolerance);
-        for (const PassTime& pass : drawn.seconds) {
-            const auto known = std::find_if(passes_.begin(), passes_.end(),
-                                            [&](const PassTime& p) { return p.pass == pass.pass; });
-            if (known == passes_.end())
-                passes_.push_back(pass);
-            else
-                known->seconds += pass.seconds;
-        }
-    }
-
-    /// The exposure of the first frame holds for all, so that nothing flickers.
-    Status write(Image image, const std::filesystem::path& path) {
-        if (path.extension() == ".png") {
-            if (!exposure_)
-                exposure_ = options_.exposure ? static_cast<float>(*options_.exposure)
-                                              : automatic_exposure(image);
-            image = tone_map(image, *exposure_);
-        }
-        AG_CHECK(write_image(image, path));
-        outputs_.push_back(path);
-        return {};
-    }
-
-    const Options& options_;
-    const Scene& scene_;
-    FrameRenderer& renderer_;
-    Console& console_;
-    std::optional<View> automatic_view_;
-    std::optional<float> exposure_;
-    std::vector<PassTime> passes_;  // summed over the frames
-    RayTally rays_;
-    uint64_t triangles_ = 0;  // of the frame with the most
-    float tolerance_ = 0;     // of the coarsest
-    std::vector<std::filesystem::path> outputs_;
-};
-
 /// As --device takes it.
 std::string device_name(const FrameRenderer& renderer) {
     return renderer.device() == "cpu" ? "cpu" : "gpu:" + renderer.device();
@@ -387,13 +240,14 @@ Result<int> run(const Options& options, Console& console) {
     Source source;
     AG_CHECK(open_source(options, scene, console, source));
     const double prepare_seconds = total.seconds() - load_seconds;
-    Sequence sequence(options, scene, *source.renderer, console);
+    Sequence sequence(options.sequence, options.scene.pose_time(), scene, *source.renderer,
+                      console);
     AG_CHECK(sequence.run());
 
     Json report = {{"scene", options.input.string()},
                    {"device", device_name(*source.renderer)},
                    {"engine", name_of(options.engine)},
-                   {"size", {options.size.width, options.size.height}}};
+                   {"size", {options.sequence.size.width, options.sequence.size.height}}};
     sequence.tell(report);
     const double all_seconds = total.seconds();
     report["seconds"] = {{"load", rounded_seconds(load_seconds)},
