@@ -16,8 +16,9 @@ struct Cost {
     double trace;   ///< s for 10^6 diffuse rays among 10^6 triangles ...
     double growth;  ///< ... and the power of the number of triangles with which that grows
 };
-constexpr std::array kCosts = {Cost{Accel::grid, 1.0, 11.5, 0.285},
-                               Cost{Accel::grid2, 1.9, 5.8, 0.2}, Cost{Accel::bvh, 1.7, 3.5, 0.15}};
+constexpr std::array kCosts = {Cost{Accel::grid, 0.7, 10.5, 0.32},
+                               Cost{Accel::grid2, 1.75, 5.0, 0.22},
+                               Cost{Accel::bvh, 1.8, 3.5, 0.18}};
 constexpr double kUnlimited = 1e15;  // rays; keeps sums finite
 
 }  // namespace

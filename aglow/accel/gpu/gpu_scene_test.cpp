@@ -234,8 +234,8 @@ TEST_CASE("a structure is chosen by how many rays pay for its build") {
         }
         CHECK(last == Accel::bvh);
     }
-    CHECK(choose_accel({.triangles = 1000000, .rays_per_build = 7e4}) == Accel::grid);
-    CHECK(choose_accel({.triangles = 1000000, .rays_per_build = 1e5}) == Accel::bvh);
+    CHECK(choose_accel({.triangles = 1000000, .rays_per_build = 1.4e5}) == Accel::grid);
+    CHECK(choose_accel({.triangles = 1000000, .rays_per_build = 1.7e5}) == Accel::bvh);
     CHECK(choose_accel({.triangles = 0, .rays_per_build = 0}) == Accel::grid);
     CHECK(std::string(name(Accel::grid2)) == "grid2");
 }
