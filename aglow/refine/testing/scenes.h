@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -47,6 +48,37 @@ inline Scene cube() {
     Node node;
     node.mesh = 0;
     scene.nodes.push_back(node);
+    return scene;
+}
+
+/// A convex drum: flat in the middle of its ends, bent where they meet the side.
+inline Scene drum() {
+    constexpr uint32_t kSides = 12;
+    Scene scene;
+    Primitive p;
+    const auto add = [&](float radius, float height, vec2 normal, uint32_t sides) {
+        for (uint32_t side = 0; side < sides; ++side) {
+            const float a = 2 * kPi * static_cast<float>(side) / kSides;
+            p.positions.push_back({radius * std::cos(a), height, -radius * std::sin(a)});
+            p.normals.push_back(
+                normalize(vec3{normal.x * std::cos(a), normal.y, -normal.x * std::sin(a)}));
+            p.colors.push_back({0.5f + height, 0.5f, 0, 1});
+        }
+    };
+    add(0, 0.5f, {0, 1}, 1);
+    add(0.8f, 0.4f, {1, 1}, kSides);
+    add(0.8f, -0.4f, {1, -1}, kSides);
+    add(0, -0.5f, {0, -1}, 1);
+    for (uint32_t side = 0; side < kSides; ++side) {
+        const uint32_t a = 1 + side, b = 1 + (side + 1) % kSides;
+        const uint32_t c = a + kSides, d = b + kSides;
+        p.triangles.push_back({0, a, b});
+        p.triangles.push_back({a, c, d});
+        p.triangles.push_back({a, d, b});
+        p.triangles.push_back({c, 1 + 2 * kSides, d});
+    }
+    scene.meshes.push_back({"drum", {std::move(p)}, {}});
+    scene.nodes.emplace_back().mesh = 0;
     return scene;
 }
 
