@@ -25,9 +25,11 @@ struct alignas(kColumnBlock * sizeof(float)) WeightBlock {
 using Weights = std::vector<WeightBlock>;
 
 inline std::span<const float> floats(const Weights& weights) {
+    if (weights.empty()) return {};
     return {weights.data()->weight, weights.size() * kColumnBlock};
 }
 inline std::span<float> floats(Weights& weights) {
+    if (weights.empty()) return {};
     return {weights.data()->weight, weights.size() * kColumnBlock};
 }
 
