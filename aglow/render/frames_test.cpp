@@ -119,14 +119,7 @@ TEST_CASE("the shadow of a body moves with it over a baked floor, and the old on
     scene.nodes[static_cast<size_t>(slab)].translation = {-2, 0, 0};
     move_along_x(scene, slab, 3);
     const float sunlight = 1000 / std::sqrt(2.0f), ambient = 60;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = {1000, 1000, 1000};
-    scene.lights.push_back(sun);
-    Node node;
-    node.light = 0;
-    node.rotation = {0, -std::sin(kPi / 8), 0, std::cos(kPi / 8)};  // -Z turned towards +x
-    scene.nodes.push_back(node);
+    add_sun(scene, {0, -std::sin(kPi / 8), 0, std::cos(kPi / 8)});  // -Z turned towards +x
 
     Lit lit = quads.lit(64, {1, 1, 1});  // 8 texels to the metre
     for (int y = 0; y < 64; ++y)

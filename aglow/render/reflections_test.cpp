@@ -124,13 +124,7 @@ TEST_CASE("a closed room of uniform light gets no brighter, and no darker than w
 TEST_CASE("a punctual light whose light is baked is not counted twice on rough metal") {
     Quads quads;
     quads.floor(metal(0.9f, 1), 1);
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = {1000, 1000, 1000};
-    quads.scene.lights.push_back(sun);
-    Node node;
-    node.light = 0;
-    quads.scene.nodes.push_back(node);
+    add_sun(quads.scene);
     // Straight down onto it; the lightmap holds that and a sky's 300 lux.
     const Lit lit = quads.lit(8, {1300, 1300, 1300});
     const Image image = picture(quads.scene, &lit, from_above(2, 0.5f, 3), {.samples = 1});

@@ -6,14 +6,11 @@
 #include "aglow/shared/form_factor.h"
 AG_NAMESPACE_BEGIN
 
-// Triangles to be drawn, as many for each triangle ("face") of the scene. 40 bytes.
+// The triangles ("faces") of the scene as they are. 24 bytes.
 struct RasterGeometry {
-    vec3Ptr positions;     // [vertices] world space
-    vec3Ptr normals;       // [vertices] unit
-    uvec3Ptr triangles;    // [faces][face_triangles]
-    vec2Ptr barycentrics;  // [face_triangles][3] where their corners lie on the face
-    uint face_triangles;
-    uint unused;
+    vec3Ptr positions;   // [vertices] world space
+    vec3Ptr normals;     // [vertices] unit
+    uvec3Ptr triangles;  // [faces]
 };
 AG_BUFFER_OF(RasterGeometry);
 
@@ -84,7 +81,7 @@ AG_FN vec3 sky_irradiance(RasterFrame frame, vec3 n) {
 
 AG_NAMESPACE_END
 #ifdef __cplusplus
-static_assert(sizeof(aglow::shared::RasterGeometry) == 40);
+static_assert(sizeof(aglow::shared::RasterGeometry) == 24);
 static_assert(sizeof(aglow::shared::RasterEmitter) == 20);
 static_assert(sizeof(aglow::shared::RasterFrame) == 264);
 static_assert(sizeof(aglow::shared::RasterArgs) == 56);

@@ -20,7 +20,7 @@ enum class Motions : uint8_t { none, rigid };
 /// Finds, for each mesh, the first one that it is like: with the same triangles over the same
 /// vertices in the same order, alike in everything but materials. With rigid motions positions and
 /// normals may be turned and moved, within four roundings of the largest coordinate, if the mesh is
-/// closed (an open one could no longer meet another bitwise), has neither skin nor morph targets,
+/// closed (moved, an open one does not meet another bitwise), has neither skin nor morph targets,
 /// and no node instances it.
 /// Shapes  result [mesh]
 /// Cost    O(n), and that of comparing those with as many triangles and vertices

@@ -73,6 +73,18 @@ struct Quads {
     }
 };
 
+/// Light of 1000 lx on what faces it, along -Z turned by `rotation`.
+inline void add_sun(Scene& scene, vec4 rotation = {0, 0, 0, 1}) {
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = {1000, 1000, 1000};
+    Node node;
+    node.light = static_cast<int>(scene.lights.size());
+    node.rotation = rotation;
+    scene.lights.push_back(sun);
+    scene.nodes.push_back(node);
+}
+
 /// A picture of the scene at rest; `lit` may be null.
 inline Image picture(const Scene& scene, const Lit* lit, const View& view,
                      const RaysOptions& options, double time = -1) {

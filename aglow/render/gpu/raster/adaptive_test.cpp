@@ -67,13 +67,7 @@ Scene ball(uint32_t segments, float roughness = 0) {
     node.mesh = 0;
     scene.meshes.push_back({"", {p}, {}});
     scene.nodes.push_back(node);
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = {1000, 1000, 1000};
-    scene.lights.push_back(sun);
-    Node lamp;
-    lamp.light = 0;
-    scene.nodes.push_back(lamp);
+    add_sun(scene);
     return scene;
 }
 

@@ -41,13 +41,7 @@ struct Relief {
             for (const vec2 uv : {vec2{0.1f, 0.1f}, vec2{0.9f, 0.1f}, vec2{0.1f, 0.9f}})
                 p.texcoords[0].push_back(uv);
         p.displacement = DisplacementRef{file, 0, 1, 0};
-        Light sun;
-        sun.kind = LightKind::directional;
-        sun.intensity = {1000, 1000, 1000};
-        scene.lights.push_back(sun);
-        Node lamp;
-        lamp.light = 0;
-        scene.nodes.push_back(lamp);
+        add_sun(scene);
     }
     Primitive& primitive() { return scene.meshes[0].primitives[0]; }
 };

@@ -12,15 +12,12 @@ layout(location = 3) flat out uint face;
 
 void main() {
     RasterGeometryPtr geometry = args.geometry;
-    uint face_triangles = geometry.at[0].face_triangles;
-    uint place = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
-    uint within = place % face_triangles;
-    face = face_at(place / face_triangles);
-    uvec3 triangle = geometry.at[0].triangles.at[face * face_triangles + within];
+    face = face_at(uint(gl_VertexIndex) / 3u);
+    uvec3 triangle = geometry.at[0].triangles.at[face];
     uint vertex = corner == 0u ? triangle.x : corner == 1u ? triangle.y : triangle.z;
     position = geometry.at[0].positions.at[vertex];
     normal = geometry.at[0].normals.at[vertex];
-    barycentrics = geometry.at[0].barycentrics.at[3u * within + corner];
+    barycentrics = vec2(corner == 1u ? 1.0f : 0.0f, corner == 2u ? 1.0f : 0.0f);
     gl_Position = clip_position(position);
 }

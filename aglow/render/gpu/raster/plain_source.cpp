@@ -3,7 +3,6 @@
 #include "aglow/render/gpu/raster/vertex_source.h"
 #include "aglow/shared/raster.h"
 
-#include <array>
 #include <utility>
 
 namespace aglow::render::gpu {
@@ -11,22 +10,15 @@ namespace {
 
 class PlainSource : public VertexSource {
 public:
-    PlainSource(const mesh::gpu::DeviceSurfaces& surfaces, vk::Buffer geometry,
-                vk::Buffer barycentrics)
-        : surfaces_(surfaces),
-          geometry_(std::move(geometry)),
-          barycentrics_(std::move(barycentrics)) {}
+    PlainSource(const mesh::gpu::DeviceSurfaces& surfaces, vk::Buffer geometry)
+        : surfaces_(surfaces), geometry_(std::move(geometry)) {}
 
     vk::GraphicsShaders shaders() const override { return {.vertex = shaders::mesh_vert}; }
 
     Status update(vk::Stream& stream, const Shot& /*shot*/) override {
         const vk::Stream::Scope scope(stream, "pose");
-        const shared::RasterGeometry geometry{surfaces_.positions(),
-                                              surfaces_.normals(),
-                                              surfaces_.indices(),
-                                              barycentrics_.address(),
-                                              1,
-                                              0};
+        const shared::RasterGeometry geometry{surfaces_.positions(), surfaces_.normals(),
+                                              surfaces_.indices()};
         stream.upload(std::span(&geometry, 1), geometry_);
         return {};
     }
@@ -41,19 +33,16 @@ public:
 
 private:
     const mesh::gpu::DeviceSurfaces& surfaces_;
-    vk::Buffer geometry_, barycentrics_;
+    vk::Buffer geometry_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<VertexSource>> make_plain_source(vk::Stream& stream,
                                                         const mesh::gpu::DeviceSurfaces& surfaces) {
-    constexpr std::array<vec2, 3> kCorners{{{0, 0}, {1, 0}, {0, 1}}};
     AG_TRY(vk::Buffer geometry,
            stream.make_buffer(sizeof(shared::RasterGeometry), "triangles to draw"));
-    AG_TRY(vk::Buffer barycentrics,
-           vk::make_buffer_of(stream, std::span<const vec2>(kCorners), "corners"));
-    return std::make_unique<PlainSource>(surfaces, std::move(geometry), std::move(barycentrics));
+    return std::make_unique<PlainSource>(surfaces, std::move(geometry));
 }
 
 }  // namespace aglow::render::gpu
